@@ -118,6 +118,9 @@ void check_surfaces(std::string& list, std::span<const MaterialDescription> mate
                                    kLeastIor, kMostIor);
             });
         }
+        if (!within(m.opacity, 0.0f, 1.0f))
+            number.add(
+                [&] { return fmt::format("material '{}': opacity {} is not within [0, 1]", m.name, m.opacity); });
         if (!is_finite(m.absorption) || glm::any(glm::lessThan(m.absorption, glm::vec3(0.0f))))
             number.add([&] {
                 return fmt::format("material '{}': absorption {} is not finite and at least 0", m.name,

@@ -115,6 +115,8 @@ private:
         material.albedo = glm::vec3(radiance == glm::vec3(0.0f) ? 0.5f : 0.0f);
         if (surface) material = mitsuba_surface(file_, surface, scene_);
         material.emission = radiance;
+        if (radiance != glm::vec3(0.0f) && material.may_have_holes())
+            surface.note("the light of shapes with a mask is masked, too");
         if (inside) set_inside(inside, material);
         const std::string id = surface ? surface.attribute("id") : "";
         material.name = id.empty() ? fmt::format("material {}", scene_.materials.size()) : id;

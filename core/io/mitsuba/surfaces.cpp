@@ -56,6 +56,13 @@ Metal metal_of(const glm::vec3& eta, const glm::vec3& k) {
 /// Share of diffuse light that a smooth interface reflects from inside. [d'Eon and Irving 2011]
 double internal_reflectance(double eta) { return -1.4399 / (eta * eta) + 0.7099 / eta + 0.6681 + 0.0636 * eta; }
 
+bool repeats(const MitsubaObject& bitmap) { return bitmap.text("wrap_mode").value_or("repeat") != "clamp"; }
+
+void note_transformation(const MitsubaObject& bitmap) {
+    if (bitmap.property("to_uv") || bitmap.property("uscale") || bitmap.property("vscale"))
+        bitmap.note("transformations of images are left out");
+}
+
 class MitsubaSurface {
 public:
     MitsubaSurface(const MitsubaFile& file, const MitsubaObject& bsdf, SceneDescription& scene)
@@ -102,11 +109,9 @@ private:
             const glm::vec3 first = texture.color("color0").value_or(glm::vec3(0.4f));
             return within_one(0.5f * (first + texture.color("color1").value_or(glm::vec3(0.2f))));
         }
-        if (texture.property("to_uv") || texture.property("uscale") || texture.property("vscale"))
-            texture.note("transformations of images are left out");
-        const std::string wrap = texture.text("wrap_mode").value_or("repeat");
+        note_transformation(texture);
         material_.textures.albedo =
-            add_texture(scene_, texture.file("filename"), TextureContent::Color, wrap != "clamp");
+            add_texture(scene_, texture.file("filename"), TextureContent::Color, repeats(texture));
         return glm::vec3(1.0f);
     }
 
@@ -237,8 +242,36 @@ std::uint32_t normals_of(const MitsubaFile& file, const MitsubaObject& adapter, 
         adapter.note("normals that are no image are left out");
         return kNoTexture;
     }
-    const std::string wrap = texture.text("wrap_mode").value_or("repeat");
-    return add_texture(scene, texture.file("filename"), TextureContent::Normal, wrap != "clamp");
+    return add_texture(scene, texture.file("filename"), TextureContent::Normal, repeats(texture));
+}
+
+/// An image of opacities: the luminance of a bitmap. [Mitsuba 3, mask]
+std::uint32_t opacities_of(const MitsubaObject& bitmap, SceneDescription& scene) {
+    note_transformation(bitmap);
+    const std::filesystem::path path = bitmap.file("filename");
+    const bool is_linear = bitmap.boolean("raw").value_or(false);
+    return add_texture_by(scene, path, TextureContent::Opacity, repeats(bitmap), [&] {
+        TextureDescription image = read_texture(path, is_linear ? TextureContent::Normal : TextureContent::Color,
+                                                repeats(bitmap), scene.warnings);
+        image.content = TextureContent::Opacity;
+        for (glm::vec4& texel : image.texels) texel.w = std::min(luminance(Vec3f{texel}), 1.0f);
+        return image;
+    });
+}
+
+/// Multiplies the opacity of a material by that of an adapter of the type mask.
+void add_mask(const MitsubaFile& file, const MitsubaObject& mask, SceneDescription& scene,
+              MaterialDescription& material) {
+    material.opacity_rule = OpacityRule::Blend;
+    const MitsubaObject texture = mitsuba_target(file, mask.property("opacity"));
+    if (texture.element() != "texture") {
+        const glm::vec3 color = mask.color("opacity").value_or(glm::vec3(0.5f));
+        material.opacity *= std::clamp(luminance(color), 0.0f, 1.0f);
+    } else if (texture.type() != "bitmap" || material.textures.opacity != kNoTexture) {
+        mask.note("opacities that are no image, and further ones inside of others, are left out");
+    } else {
+        material.textures.opacity = opacities_of(texture, scene);
+    }
 }
 
 /// The surface inside of an adapter.
@@ -254,10 +287,12 @@ MitsubaObject inside_of(const MitsubaFile& file, const MitsubaObject& adapter) {
 
 MaterialDescription mitsuba_surface(const MitsubaFile& file, const MitsubaObject& bsdf, SceneDescription& scene) {
     MitsubaObject inner = bsdf;
-    std::uint32_t normals = kNoTexture;
+    MaterialDescription adapted;  // opacity and normals
     for (int depth = 0; is_adapter(mitsuba_name(inner.type())); ++depth) {
         if (inner.type() == "normalmap") {
-            normals = normals_of(file, inner, scene);
+            adapted.textures.normal = normals_of(file, inner, scene);
+        } else if (inner.type() == "mask") {
+            add_mask(file, inner, scene, adapted);
         } else if (inner.type() != "twosided") {
             inner.note(fmt::format("the effect of {} is left out: the surface inside of it is shown",
                                    in_quotes(inner.type())));
@@ -270,8 +305,11 @@ MaterialDescription mitsuba_surface(const MitsubaFile& file, const MitsubaObject
         inner = next;
     }
     MaterialDescription material = MitsubaSurface(file, inner, scene).run();
-    material.textures.normal = normals;
-    if (normals != kNoTexture) material.normal_green = NormalGreen::Left;
+    material.textures.normal = adapted.textures.normal;
+    material.textures.opacity = adapted.textures.opacity;
+    material.opacity = adapted.opacity;
+    material.opacity_rule = adapted.opacity_rule;
+    if (material.textures.normal != kNoTexture) material.normal_green = NormalGreen::Left;
     return material;
 }
 

@@ -49,10 +49,11 @@ struct SceneView {
     Span<const Material> materials;
     Span<const SurfaceLobes> lobes;        ///< [material]; empty if all are diffuse
     Span<const float> directional_albedo;  ///< tables that SurfaceLobes::table indexes
-    Span<const Vec3f> absorption;          ///< [material], per length, of the inside of glass; empty if nothing absorbs
+    Span<const Vec3f> absorption;  ///< [material], per length, of the inside of glass; empty if nothing absorbs
     Textures textures;
-    Span<const Light> lights;  ///< sorted by primitive
-    LightTree light_tree;      ///< over `lights`; empty if they are few
+    Span<const MaterialOpacity> opacities;  ///< [material]; empty if all are opaque
+    Span<const Light> lights;               ///< sorted by primitive
+    LightTree light_tree;                   ///< over `lights`; empty if they are few
     BvhView bvh;
     /// Sum of area x luminance of the emission, divided by the probability that a light sample chooses `lights`.
     float light_power = 0.0f;

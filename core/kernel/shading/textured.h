@@ -69,14 +69,14 @@ PL_HD inline Vec3f emitted_at(const SceneView& scene, const SurfacePoint& surfac
     return emitted;
 }
 
-/// Whether the triangle has a hole at `b`.
+/// Probability that a ray meets the triangle at `b`.
 template <FeatureSet F>
-PL_HD inline bool is_hole_at(const SceneView& scene, std::uint32_t primitive, Vec3f b) {
+PL_HD inline float opacity_at(const SceneView& scene, std::uint32_t primitive, Vec3f b) {
     if constexpr (F.has(Feature::CutOuts)) {
-        if (scene.textures.has_holes != 0)
-            return is_hole(scene.textures, scene.triangles[primitive].material, primitive, b);
+        if (!scene.opacities.empty())
+            return opacity_of(scene.textures, scene.opacities[scene.triangles[primitive].material], primitive, b);
     }
-    return false;
+    return 1.0f;
 }
 
 }  // namespace pl

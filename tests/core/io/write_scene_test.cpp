@@ -128,6 +128,23 @@ TEST_CASE("write_scene: each use of an image has its channels, its bits and its 
     CHECK(read.textures[use.emission].source.extension() == ".exr");
 }
 
+TEST_CASE("write_scene: opacities keep their number, image and rule") {
+    for (const OpacityRule rule : {OpacityRule::Threshold, OpacityRule::Blend}) {
+        MaterialDescription material{.name = "m", .albedo = glm::vec3(0.8f)};
+        material.textures.opacity = 0;
+        material.opacity = 0.3f;
+        material.opacity_rule = rule;
+        SceneDescription scene = triangle_of(material);
+        scene.textures = {
+            texture_of({{1, 1, 1, 128.0f / 255.0f}, {1, 1, 1, 51.0f / 255.0f}}, TextureContent::Opacity, true)};
+        const SceneDescription read = rewritten(scene);
+        REQUIRE(read.materials[0].textures.opacity == 0);
+        CHECK(read.textures[0].texels[1].w == scene.textures[0].texels[1].w);
+        CHECK(read.materials[0].opacity == 0.3f);
+        CHECK(read.materials[0].opacity_rule == rule);
+    }
+}
+
 TEST_CASE("write_scene: normal maps keep all channels and their strength") {
     MaterialDescription material{.name = "m", .albedo = glm::vec3(0.8f)};
     material.textures.normal = 0;

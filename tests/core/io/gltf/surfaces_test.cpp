@@ -288,37 +288,46 @@ TEST_CASE("gltf images: transformations, sets and wrapping of coordinates") {
     CHECK(is_told(other, "mirrored repetition"));
 }
 
-TEST_CASE("gltf images: holes by the cutoff of the mask, partial opacity as holes") {
+TEST_CASE("gltf images: holes by the cutoff of the mask, and partial opacity") {
     const Json info = {{"index", 0}};
     Json material = metal_rough({{"baseColorTexture", info}});
     const std::array<std::uint8_t, 8> rgba{255, 255, 255, 51, 255, 255, 255, 255};
     material["alphaMode"] = "MASK";
+    material["pbrMetallicRoughness"]["baseColorFactor"] = {1, 1, 1, 1};
     SceneDescription scene = load(with_image(material, rgba));
     CHECK(scene.materials[0].textures.opacity == scene.materials[0].textures.albedo);
     CHECK(scene.textures[0].texels[0].w == Approx(0.2));
+    CHECK(scene.materials[0].opacity == 1.0f);
+    CHECK(scene.materials[0].opacity_rule == OpacityRule::Threshold);
     material["alphaCutoff"] = 0.1;
     scene = load(with_image(material, rgba));
     CHECK(scene.textures[0].texels[0].w == 1.0f);  // 0.2 is above the cutoff
     material["alphaMode"] = "BLEND";
+    material["pbrMetallicRoughness"]["baseColorFactor"][3] = 0.5;
     scene = load(with_image(material, rgba));
     CHECK(scene.textures[0].texels[0].w == Approx(0.2));
-    CHECK(is_told(scene, "partial opacity is shown as holes"));
+    CHECK(scene.materials[0].textures.opacity == scene.materials[0].textures.albedo);
+    CHECK(scene.materials[0].opacity == 0.5f);
+    CHECK(scene.materials[0].opacity_rule == OpacityRule::Blend);
     material["alphaMode"] = "HALF";
     CHECK_THAT(test::input_error([&] { load(material); }), contains("expected OPAQUE, MASK or BLEND, got 'HALF'"));
 }
 
-TEST_CASE("gltf materials: an even opacity is a pane, opaque, or nothing at all") {
+TEST_CASE("gltf materials: an even opacity blends, or is that of nothing at all") {
     Json material = metal_rough({{"baseColorFactor", {1, 0, 0, 0.25}}, {"metallicFactor", 0}});
     material["alphaMode"] = "BLEND";
-    const MaterialDescription pane = surface(material);
-    CHECK(pane.kind == SurfaceKind::Dielectric);
-    CHECK(pane.ior == 1.0f);
-    CHECK(pane.transmission == glm::vec3(1.0f, 0.75f, 0.75f));
-    material["pbrMetallicRoughness"]["baseColorFactor"][3] = 0.75;
-    CHECK(surface(material).kind == SurfaceKind::Plastic);
+    const MaterialDescription veil = surface(material);
+    CHECK(veil.kind == SurfaceKind::Plastic);
+    CHECK(veil.albedo == glm::vec3(1, 0, 0));
+    CHECK(veil.opacity == 0.25f);
+    CHECK(veil.opacity_rule == OpacityRule::Blend);
+    material["alphaMode"] = "OPAQUE";
+    CHECK_FALSE(surface(material).may_have_holes());
     GltfMaker hidden;
     material["alphaMode"] = "MASK";
-    material["pbrMetallicRoughness"]["baseColorFactor"][3] = 0.25;
+    hidden.triangle(material);
+    material["alphaMode"] = "BLEND";
+    material["pbrMetallicRoughness"]["baseColorFactor"][3] = 0;
     hidden.triangle(material);
     hidden.triangle(metal_rough({}));
     CHECK(load(hidden).triangles.size() == 1);

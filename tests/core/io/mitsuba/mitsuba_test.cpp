@@ -243,6 +243,45 @@ TEST_CASE("mitsuba: a normal map is that of the surface inside") {
     CHECK_FALSE(is_told(scene, "normalmap"));
 }
 
+TEST_CASE("mitsuba: masks are the opacity of the surface inside, and multiply") {
+    const auto mask = [](const std::string& opacity, const std::string& inside = "<bsdf type=\"diffuse\"/>") {
+        return "<bsdf type=\"mask\">" + opacity + inside + "</bsdf>";
+    };
+    const std::string half = "<float name=\"opacity\" value=\"0.5\"/>";
+    const MaterialDescription veil = surface(mask("<float name=\"opacity\" value=\"0.75\"/>"));
+    CHECK(veil.opacity == 0.75f);
+    CHECK(veil.opacity_rule == OpacityRule::Blend);
+    CHECK(veil.albedo == glm::vec3(0.5f));
+    CHECK(surface(mask("")).opacity == 0.5f);
+    CHECK(surface(mask("<rgb name=\"opacity\" value=\"0.25, 0.25, 0.25\"/>")).opacity == Approx(0.25));
+    CHECK(surface(mask(half, "<bsdf type=\"twosided\">" + mask(half) + "</bsdf>")).opacity == 0.25f);
+    CHECK(surface(mask("<float name=\"opacity\" value=\"7\"/>")).opacity == 1.0f);
+    CHECK_FALSE(surface("<bsdf type=\"diffuse\"/>").may_have_holes());
+
+    const TemporaryFolder folder;
+    write_png8(folder.path() / "a.png", {.width = 2, .height = 1, .rgb = {128, 128, 128, 0, 255, 0}});
+    const auto image = [](const std::string& more) {
+        return "<texture name=\"opacity\" type=\"bitmap\"><string name=\"filename\" value=\"a.png\"/>" + more +
+               "</texture>";
+    };
+    const auto seen = [&](const std::string& bsdf) {
+        return load(folder, "<shape type=\"rectangle\">" + bsdf + "</shape>");
+    };
+    const SceneDescription decoded = seen(mask(image("")));
+    REQUIRE(decoded.materials[0].textures.opacity == 0);
+    CHECK(decoded.materials[0].opacity == 1.0f);
+    CHECK(decoded.textures[0].texels[0].w == Approx(0.2159).epsilon(1e-3));
+    CHECK(decoded.textures[0].texels[1].w == Approx(0.7152).epsilon(1e-3));
+    const SceneDescription raw = seen(mask(image("<boolean name=\"raw\" value=\"true\"/>")));
+    CHECK(raw.textures[0].texels[0].w == Approx(128.0 / 255.0));
+    CHECK(is_told(seen(mask(image(""), mask(image("")))), "further ones inside of others, are left out"));
+    CHECK(is_told(seen(mask("<texture name=\"opacity\" type=\"checkerboard\"/>")), "opacities that are no image"));
+    CHECK(is_told(load("<shape type=\"rectangle\">" + mask(half) + "<emitter type=\"area\"/></shape>"),
+                  "the light of shapes with a mask is masked, too"));
+    CHECK_THAT(refusal("<shape type=\"rectangle\"><bsdf type=\"mask\"/></shape>"),
+               contains("mask: expected a surface inside, got none"));
+}
+
 TEST_CASE("mitsuba: area and constant emitters, others are told") {
     const SceneDescription scene =
         load("<shape type=\"rectangle\"><emitter type=\"area\"><rgb name=\"radiance\" value=\"20, 3, "

@@ -61,11 +61,16 @@ TEST_CASE("Values are finite for all coordinates") {
     }
 }
 
-TEST_CASE("Coordinates follow the corners, and a hole is where opacity is below one half") {
+TEST_CASE("Coordinates follow the corners, and a hole is where opacity is below one half unless it blends") {
     const HostScene scene = painted(true);
     const Textures textures = scene.view().textures;
     const Vec2f uv = uv_at(textures, 0, {0.5f, 0.25f, 0.25f});
     CHECK(uv == Vec2f{0.25f, 0.25f});
-    CHECK_FALSE(is_hole(textures, 0, 0, {0.5f, 0.25f, 0.25f}));
-    CHECK(is_hole(textures, 0, 0, {0.0f, 0.75f, 0.25f}));
+    const MaterialOpacity& threshold = scene.opacities[0];
+    CHECK(opacity_of(textures, threshold, 0, {0.5f, 0.25f, 0.25f}) == 1.0f);
+    CHECK(opacity_of(textures, threshold, 0, {0.0f, 0.75f, 0.25f}) == 0.0f);
+    const MaterialOpacity blend{.image = threshold.image, .factor = 0.5f, .blends = 1};
+    CHECK(opacity_of(textures, blend, 0, {0.5f, 0.25f, 0.25f}) == 0.5f);
+    CHECK(opacity_of(textures, blend, 0, {0.0f, 0.75f, 0.25f}) == 0.125f);
+    CHECK(opacity_of(textures, {.factor = 0.3f, .blends = 1}, 0, {0.0f, 0.75f, 0.25f}) == 0.3f);
 }
