@@ -186,6 +186,8 @@ struct SceneDescription {
     std::filesystem::path source;              ///< the file that was opened, for messages
     std::vector<std::filesystem::path> files;  ///< looked for by the loaders, without images, which have a `source`
     std::vector<glm::vec3> positions;
+    /// Colors of the vertices at `positions`, each channel in [0, 1], which multiply what albedo textures multiply; or none.
+    std::vector<glm::vec3> vertex_colors;
     std::vector<glm::vec3> normals;
     std::vector<glm::vec2> uvs;
     std::vector<TriangleDescription> triangles;

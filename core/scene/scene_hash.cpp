@@ -22,7 +22,7 @@ void add(Fnv1a& hash, const glm::uvec3& v) {
     hash.add(std::uint64_t{v.z});
 }
 
-/// Adds the optional parts of a scene (lobes, opacities, textures, far lights, lights without extent), each preceded by its name. Absent parts add
+/// Adds the optional parts of a scene (lobes, colors of vertices, opacities, textures, far lights, lights without extent), each preceded by its name. Absent parts add
 /// nothing, so that a new kind of part does not change the hashes of existing scenes.
 class PartHasher {
 public:
@@ -46,6 +46,12 @@ public:
             begin("edge tint", i);
             add(hash_, m.edge_tint);
         }
+    }
+
+    void add_vertex_colors(const std::vector<glm::vec3>& colors) {
+        if (colors.empty()) return;
+        begin("vertex colors", colors.size());
+        for (const glm::vec3& color : colors) add(hash_, color);
     }
 
     void add_opacities(const std::vector<MaterialDescription>& materials) {
@@ -152,6 +158,7 @@ std::string scene_hash(const SceneDescription& scene) {
     add(hash, scene.environment);
     PartHasher parts(hash);
     parts.add_surfaces(scene.materials);
+    parts.add_vertex_colors(scene.vertex_colors);
     parts.add_opacities(scene.materials);
     parts.add_textures(scene);
     parts.add_far_lights(scene);

@@ -13,6 +13,7 @@ struct SceneStorage {
     Array<TrianglePlane> planes;
     Array<Vec3f> normals;
     Array<TriangleNormals> triangle_normals;
+    Array<Vec3f> vertex_colors;
     Array<Material> materials;
     Array<SurfaceLobes> lobes;
     Array<float> directional_albedo;
@@ -52,6 +53,7 @@ struct SceneStorage {
             .planes = view_of(planes),
             .normals = view_of(normals),
             .triangle_normals = view_of(triangle_normals),
+            .vertex_colors = view_of(vertex_colors),
             .materials = view_of(materials),
             .lobes = view_of(lobes),
             .directional_albedo = view_of(directional_albedo),
@@ -87,6 +89,7 @@ void zip(const SceneStorage<From>& from, SceneStorage<To>& to, Fn&& fn) {
     fn(from.planes, to.planes);
     fn(from.normals, to.normals);
     fn(from.triangle_normals, to.triangle_normals);
+    fn(from.vertex_colors, to.vertex_colors);
     fn(from.materials, to.materials);
     fn(from.lobes, to.lobes);
     fn(from.directional_albedo, to.directional_albedo);

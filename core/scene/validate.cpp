@@ -58,6 +58,18 @@ void check_numbers(std::string& list, std::string_view what, const std::vector<g
     }
 }
 
+void check_vertex_colors(std::string& list, const SceneDescription& scene) {
+    if (!scene.vertex_colors.empty() && scene.vertex_colors.size() != scene.positions.size())
+        list +=
+            fmt::format("\n  there are {} colors of {} vertices", scene.vertex_colors.size(), scene.positions.size());
+    Complaint color(list);
+    for (std::size_t i = 0; i < scene.vertex_colors.size(); ++i)
+        if (!is_albedo(scene.vertex_colors[i]))
+            color.add([&] {
+                return fmt::format("the color {} of vertex {} is not within [0, 1]", show(scene.vertex_colors[i]), i);
+            });
+}
+
 void check_triangles(std::string& list, const SceneDescription& scene) {
     Complaint vertex(list);
     Complaint normal(list);
@@ -236,6 +248,7 @@ void validate_scene(const SceneDescription& scene) {
     }
     check_numbers(list, "vertex", scene.positions);
     check_numbers(list, "normal", scene.normals);
+    check_vertex_colors(list, scene);
     check_triangles(list, scene);
     check_materials(list, scene.materials);
     check_surfaces(list, scene.materials);

@@ -161,6 +161,17 @@ TEST_CASE("A plane under a linear sky shows its closed form by every method") {
     }
 }
 
+// The camera sees a small part of the plane, around the weights 1/4, 1/4 and 1/2 of its corners: of their colors, too. S1 as above.
+TEST_CASE("A plane with colors of vertices shows their mean where the camera looks, by every method") {
+    SceneDescription scene = plane_scene(0.8f);
+    scene.vertex_colors = {glm::vec3(1.0f), glm::vec3(0.2f), glm::vec3(0.4f)};
+    scene.environment_map = linear_sky(1.0f, 0.0f);
+    for (const Estimator estimator : kEstimators) {
+        INFO(estimator);
+        CHECK(shows(scene, estimator, 0.8 * (0.25 * 1.0 + 0.25 * 0.2 + 0.5 * 0.4), 0.02));
+    }
+}
+
 // Of the hemisphere around a normal that is tilted by 45 degrees the part below the plane is lost: (1 + cos 45) / 2 are left of an even sky.
 // The sky is both sampled as a light and not.
 TEST_CASE("A plane with a slanted normal map under an even sky shows its closed form by every method") {

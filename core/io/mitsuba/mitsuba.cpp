@@ -83,7 +83,7 @@ private:
     }
 
     /// The scene's material of a shape: one for each surface, inside and radiance.
-    std::uint32_t material_of(const MitsubaObject& shape) {
+    ShapeMaterial material_of(const MitsubaObject& shape) {
         MitsubaObject surface;
         glm::vec3 radiance(0.0f);
         for (const MitsubaObject& child : shape.children()) {
@@ -96,8 +96,8 @@ private:
         const MitsubaObject inside = mitsuba_target(file_, shape.property("interior"));
         if (shape.property("exterior")) shape.note("media outside of shapes are left out");
         const auto key = std::make_tuple(surface.identity(), inside.identity(), radiance.x, radiance.y, radiance.z);
-        const auto [known, is_new] = materials_.try_emplace(key, static_cast<std::uint32_t>(scene_.materials.size()));
-        if (is_new) add_material(surface, inside, radiance);
+        const auto [known, is_new] = materials_.try_emplace(key);
+        if (is_new) known->second = add_material(surface, inside, radiance);
         return known->second;
     }
 
@@ -110,10 +110,11 @@ private:
         return emitter.color("radiance").value_or(glm::vec3(1.0f));
     }
 
-    void add_material(const MitsubaObject& surface, const MitsubaObject& inside, const glm::vec3& radiance) {
-        MaterialDescription material;
+    ShapeMaterial add_material(const MitsubaObject& surface, const MitsubaObject& inside, const glm::vec3& radiance) {
+        MitsubaLook look;
+        MaterialDescription& material = look.material;
         material.albedo = glm::vec3(radiance == glm::vec3(0.0f) ? 0.5f : 0.0f);
-        if (surface) material = mitsuba_surface(file_, surface, scene_);
+        if (surface) look = mitsuba_surface(file_, surface, scene_);
         material.emission = radiance;
         if (radiance != glm::vec3(0.0f) && material.may_have_holes())
             surface.note("the light of shapes with a mask is masked, too");
@@ -124,6 +125,7 @@ private:
                         [&](const MaterialDescription& other) { return other.name == material.name; }))
             material.name += fmt::format(" ({})", scene_.materials.size());
         scene_.materials.push_back(std::move(material));
+        return {static_cast<std::uint32_t>(scene_.materials.size() - 1), look.shows_vertex_colors};
     }
 
     /// The medium inside of a shape.
@@ -198,7 +200,7 @@ private:
 
     MitsubaFile file_;
     SceneDescription scene_;
-    std::map<std::tuple<const void*, const void*, float, float, float>, std::uint32_t> materials_;
+    std::map<std::tuple<const void*, const void*, float, float, float>, ShapeMaterial> materials_;
     std::map<const void*, SceneDescription> groups_;
 };
 

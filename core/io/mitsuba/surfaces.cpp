@@ -68,7 +68,7 @@ public:
     MitsubaSurface(const MitsubaFile& file, const MitsubaObject& bsdf, SceneDescription& scene)
         : file_(file), bsdf_(bsdf), scene_(scene) {}
 
-    MaterialDescription run() {
+    MitsubaLook run() {
         const std::string type = mitsuba_name(bsdf_.type());
         const bool is_rough = type.starts_with("rough");
         if (type == "diffuse") {
@@ -86,7 +86,7 @@ public:
             material_.albedo = glm::vec3(0.5f);
         }
         if (is_rough) read_roughness();
-        return material_;
+        return {material_, shows_vertex_colors_};
     }
 
 private:
@@ -104,6 +104,10 @@ private:
 
     glm::vec3 read_texture_of(const MitsubaObject& texture) {
         const std::string type = texture.type();
+        if (type == "mesh_attribute" && texture.text("name") == "vertex_color") {
+            shows_vertex_colors_ = true;
+            return within_one(glm::vec3(texture.number("scale").value_or(1.0f)));
+        }
         if (type != "bitmap") {
             texture.note(fmt::format("textures of the type {} are shown as one color", in_quotes(type)));
             const glm::vec3 first = texture.color("color0").value_or(glm::vec3(0.4f));
@@ -215,6 +219,7 @@ private:
     const MitsubaObject& bsdf_;
     SceneDescription& scene_;
     MaterialDescription material_;
+    bool shows_vertex_colors_ = false;
 };
 
 bool is_adapter(const std::string& type) {
@@ -285,7 +290,7 @@ MitsubaObject inside_of(const MitsubaFile& file, const MitsubaObject& adapter) {
 
 }  // namespace
 
-MaterialDescription mitsuba_surface(const MitsubaFile& file, const MitsubaObject& bsdf, SceneDescription& scene) {
+MitsubaLook mitsuba_surface(const MitsubaFile& file, const MitsubaObject& bsdf, SceneDescription& scene) {
     MitsubaObject inner = bsdf;
     MaterialDescription adapted;  // opacity and normals
     for (int depth = 0; is_adapter(mitsuba_name(inner.type())); ++depth) {
@@ -304,13 +309,14 @@ MaterialDescription mitsuba_surface(const MitsubaFile& file, const MitsubaObject
         }
         inner = next;
     }
-    MaterialDescription material = MitsubaSurface(file, inner, scene).run();
+    MitsubaLook look = MitsubaSurface(file, inner, scene).run();
+    MaterialDescription& material = look.material;
     material.textures.normal = adapted.textures.normal;
     material.textures.opacity = adapted.textures.opacity;
     material.opacity = adapted.opacity;
     material.opacity_rule = adapted.opacity_rule;
     if (material.textures.normal != kNoTexture) material.normal_green = NormalGreen::Left;
-    return material;
+    return look;
 }
 
 glm::vec3 mitsuba_absorption(const MitsubaObject& medium) {

@@ -32,7 +32,7 @@ PL_HD inline bool meets_hole(const SceneView& scene, const Ray& ray, const Hit& 
     if constexpr (F.has(Feature::CutOuts)) {
         if (!hit.found()) return false;
         const float opacity = opacity_at<F>(scene, hit.primitive, hit_weights(hit));
-        return opacity < 1.0f && number_of_hit(ray, hit.primitive) >= opacity;
+        return opacity < 1.0f && (opacity <= 0.0f || number_of_hit(ray, hit.primitive) >= opacity);
     }
     return false;
 }

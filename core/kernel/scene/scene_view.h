@@ -46,6 +46,7 @@ struct SceneView {
     Span<const TrianglePlane> planes;              ///< [triangle]
     Span<const Vec3f> normals;                     ///< unit or 0; empty unless the scene has smooth normals
     Span<const TriangleNormals> triangle_normals;  ///< [triangle], or empty
+    Span<const Vec3f> vertex_colors;               ///< [position], each channel in [0, 1]; empty if all are white
     Span<const Material> materials;
     Span<const SurfaceLobes> lobes;        ///< [material]; empty if all are diffuse
     Span<const float> directional_albedo;  ///< tables that SurfaceLobes::table indexes

@@ -91,6 +91,7 @@ TEST_CASE("Effects that a scene does not need take no memory") {
     CHECK(packed.images.capacity() == 0);
     CHECK(packed.material_images.capacity() == 0);
     CHECK(packed.opacities.capacity() == 0);
+    CHECK(packed.vertex_colors.capacity() == 0);
     CHECK(packed.map_texels.capacity() == 0);
     CHECK(needed_effects(packed) == FeatureSet{});
 }

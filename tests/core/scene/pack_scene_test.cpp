@@ -273,6 +273,19 @@ TEST_CASE("An image without holes is no cut-out") {
     CHECK(needed_effects(packed) == features(Feature::Textures, Feature::CutOuts));
 }
 
+TEST_CASE("Colors of vertices are textures, unless those in use are white") {
+    SceneDescription scene;
+    scene.materials = {gray()};
+    add_triangle(scene, Vec3f{0, 0, 0}, Vec3f{1, 0, 0}, Vec3f{0, 1, 0});
+    scene.positions.push_back({7, 7, 7});
+    scene.vertex_colors = {{1, 1, 1}, {1, 1, 1}, {1, 1, 1}, {0, 0, 0}};
+    CHECK(pack_scene(scene).vertex_colors.empty());
+    CHECK(needed_effects(pack_scene(scene)) == FeatureSet{});
+    scene.vertex_colors[2].y = 0.5f;
+    CHECK(pack_scene(scene).vertex_colors == scene.vertex_colors);
+    CHECK(needed_effects(pack_scene(scene)) == features(Feature::Textures));
+}
+
 TEST_CASE("An opacity counts by its rule, with an image and without, and an opaque surface is no cut-out") {
     struct Case {
         float opacity, alpha;

@@ -333,6 +333,37 @@ TEST_CASE("gltf materials: an even opacity blends, or is that of nothing at all"
     CHECK(load(hidden).triangles.size() == 1);
 }
 
+TEST_CASE("gltf: colors of vertices, as floats and as normalized integers, multiply the base color") {
+    const auto colored = [](auto values, int component, const std::string& type, std::size_t count = 3) {
+        GltfMaker file;
+        file.triangle();
+        file.triangle(metal_rough({{"metallicFactor", 0}}));
+        const int accessor = file.numbers(values, component, type, count);
+        file.root["accessors"][accessor]["normalized"] = component != 5126;
+        file.root["meshes"][1]["primitives"][0]["attributes"]["COLOR_0"] = accessor;
+        return file;
+    };
+    using Bytes = std::vector<std::uint8_t>;
+    using Shorts = std::vector<std::uint16_t>;
+    const SceneDescription bytes =
+        load(colored(Bytes{255, 51, 0, 255, 0, 0, 255, 255, 102, 0, 0, 255}, 5121, "VEC4"));
+    const std::vector<glm::vec3> expected{{1, 1, 1}, {1, 1, 1}, {1, 1, 1}, {1, 0.2f, 0}, {0, 0, 1}, {0.4f, 0, 0}};
+    CHECK(bytes.vertex_colors == expected);
+    CHECK(bytes.materials[bytes.triangles[1].material].albedo == glm::vec3(1.0f));
+    CHECK_FALSE(is_told(bytes, "of vertices"));
+    const SceneDescription shorts = load(colored(Shorts{65535, 13107, 0, 0, 0, 65535, 26214, 0, 0, 0}, 5123, "VEC3"));
+    CHECK(shorts.vertex_colors == expected);
+    const SceneDescription floats = load(colored(std::vector<float>{1, 0.2f, -1, 0, 0, 3, 0.4f, 0, 0}, 5126, "VEC3"));
+    CHECK(floats.vertex_colors == expected);
+    CHECK(is_told(floats, "colors of vertices outside of [0, 1] are moved into it"));
+    CHECK(is_told(load(colored(Bytes{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12}, 5121, "VEC4")),
+                  "opacities of vertices are left out"));
+    CHECK(load(colored(Bytes(12, 255), 5121, "VEC4")).vertex_colors.empty());
+    CHECK_THAT(test::input_error([&] { load(colored(Bytes(12, 9), 5121, "VEC4", 2)); }),
+               contains("expected one element for each of the 3 vertices, got 2"));
+    CHECK_THROWS_AS(load(colored(std::vector<float>(6), 5126, "VEC2")), Error);
+}
+
 TEST_CASE("gltf images: one that cannot be read is shown as checkers, one outside of the folder refused", "[hard]") {
     GltfMaker file = with_image(metal_rough({{"baseColorTexture", {{"index", 0}}}}), {1, 2, 3, 4, 5, 6, 7, 8});
     file.root["images"][0] = {{"uri", "none.png"}};
