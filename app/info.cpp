@@ -37,6 +37,10 @@ std::string finish_text(float roughness) {
     return roughness == 0.0f ? "smooth" : fmt::format("roughness {}", print_float(roughness));
 }
 
+std::string opacity_text(const MaterialDescription& material) {
+    return material.opacity < 1.0f ? fmt::format(", opacity {}", print_float(material.opacity)) : "";
+}
+
 /// The light that a material sends back, and how.
 std::string surface_text(const MaterialDescription& material) {
     switch (material.kind) {
@@ -82,8 +86,9 @@ std::string report_text(const SceneReport& report) {
     text += fmt::format("triangles  {}\nlights     {} triangles\nmaterials  {}\n", scene.triangles.size(),
                         report.packed.lights.size(), scene.materials.size());
     for (const MaterialDescription& material : scene.materials)
-        text += fmt::format("           {}: {}, emits {}{}\n", material.name, surface_text(material),
-                            print_vector(material.emission), material.two_sided_emission ? " on both sides" : "");
+        text += fmt::format("           {}: {}, emits {}{}{}\n", material.name, surface_text(material),
+                            print_vector(material.emission), material.two_sided_emission ? " on both sides" : "",
+                            opacity_text(material));
     text += fmt::format("light      {}\n", light_text(scene));
     if (!scene.punctual_lights.empty()) text += fmt::format("           {}\n", count_text(scene.punctual_lights));
     text += fmt::format("memory     {} bytes, {:.0f} per triangle\n", bytes_of(report.packed),

@@ -17,7 +17,7 @@ public:
           waiting_(wanted(scene) ? capacity : 0) {}
 
     /// True if the scene has holes: then shadow rays, too, need solid hits.
-    static bool wanted(const SceneView& scene) { return F.has(Feature::CutOuts) && scene.textures.has_holes != 0; }
+    static bool wanted(const SceneView& scene) { return F.has(Feature::CutOuts) && !scene.opacities.empty(); }
 
     void find_closest(RayBatch& batch, std::uint32_t count) {
         intersector_.find_closest(batch, count);
@@ -35,7 +35,8 @@ private:
     void pass_holes(RayBatch& batch, std::uint32_t count) {
         std::uint32_t waiting = 0;
         for (std::uint32_t i = 0; i < count; ++i)
-            if (meets_hole<F>(scene_, batch.hit(i))) send_on(waiting++, batch.ray(i), batch.hit(i), {i, 0.0f});
+            if (meets_hole<F>(scene_, batch.ray(i), batch.hit(i)))
+                send_on(waiting++, batch.ray(i), batch.hit(i), {i, 0.0f});
         for (int holes = 1; waiting > 0; ++holes) {
             intersector_.find_closest(rest_, waiting);
             const std::uint32_t asked = waiting;
@@ -43,7 +44,7 @@ private:
             for (std::uint32_t i = 0; i < asked; ++i) {
                 const Waiting from = waiting_[i];
                 Hit hit = rest_.hit(i);
-                if (holes < kMostHoles && meets_hole<F>(scene_, hit)) {
+                if (holes < kMostHoles && meets_hole<F>(scene_, rest_.ray(i), hit)) {
                     send_on(waiting++, rest_.ray(i), hit, from);
                 } else {
                     if (from.passed > 0.0f) hit.t += from.passed;

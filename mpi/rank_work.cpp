@@ -22,7 +22,6 @@ struct Outcome {
 struct SceneScalars {
     float light_power = 0.0f;
     Vec3f environment{0.0f};
-    std::uint32_t has_holes = 0;
     FarLights far_lights;
     float far_probability = 0.0f;
     float delta_probability = 0.0f;
@@ -102,13 +101,12 @@ void RankWork::take_scene(Payload& payload) {
     auto received = std::make_shared<HostScene>();
     const HostScene none;
     const HostScene& sent = payload.scene ? *payload.scene : none;
-    SceneScalars scalars{sent.light_power, sent.environment,     sent.has_holes,
-                         sent.far_lights,  sent.far_probability, sent.delta_probability};
+    SceneScalars scalars{sent.light_power, sent.environment, sent.far_lights, sent.far_probability,
+                         sent.delta_probability};
     zip(sent, *received, [&](const auto& from, auto& to) { broadcast_array(ranks_, from, to); });
     ranks_.broadcast(bytes_of_value(scalars));
     received->light_power = scalars.light_power;
     received->environment = scalars.environment;
-    received->has_holes = scalars.has_holes;
     received->far_lights = scalars.far_lights;
     received->far_probability = scalars.far_probability;
     received->delta_probability = scalars.delta_probability;

@@ -460,6 +460,7 @@ def textured_room():
               environment={"map": "sky.hdr", "scale": 4, "rotation_deg": 0,
                            "sun": {"direction": [1, 0.75, 0.45], "radiance": [360, 330, 270], "angle_deg": 10}},
               settings={"exposure": 1.5})
+    s.json["materials"] = {"lattice": {"opacity_rule": "threshold"}}
     s.images = {"planks.png": png(64, 64, planks), "wallpaper.png": png(64, 64, wallpaper),
                 "lattice.png": png(32, 32, lattice), "sky.hdr": hdr(64, 32, sky_radiance)}
     x0, x1, y1, z0, z1 = -2, 2, 2.6, -2.5, 2.5

@@ -7,9 +7,14 @@ namespace {
 
 constexpr SurfaceLobes kDiffuse{};
 constexpr MaterialImages kNoImages{};
+constexpr MaterialOpacity kOpaque{};
 
 bool same_images(const MaterialImages& a, const MaterialImages& b) {
-    return a.albedo == b.albedo && a.roughness == b.roughness && a.emission == b.emission && a.opacity == b.opacity;
+    return a.albedo == b.albedo && a.roughness == b.roughness && a.emission == b.emission;
+}
+
+bool same_opacity(const MaterialOpacity& a, const MaterialOpacity& b) {
+    return a.image == b.image && a.factor == b.factor && a.blends == b.blends;
 }
 
 /// The properties of a material that the walks of a placement read.
@@ -17,14 +22,18 @@ struct Looks {
     const Material& material;
     const SurfaceLobes& lobes;
     const MaterialImages& images;
+    const MaterialOpacity& opacity;
 
     Looks(const HostScene& scene, std::size_t index)
         : material(scene.materials[index]), lobes(scene.lobes.empty() ? kDiffuse : scene.lobes[index]),
-          images(scene.material_images.empty() ? kNoImages : scene.material_images[index]) {}
+          images(scene.material_images.empty() ? kNoImages : scene.material_images[index]),
+          opacity(scene.opacities.empty() ? kOpaque : scene.opacities[index]) {}
 
-    /// Diffuse without images: the directions of a walk depend on neither color nor brightness, unless the
+    /// Opaque and diffuse without images: the directions of a walk depend on neither color nor brightness, unless the
     /// albedo is 0.
-    bool is_plain() const { return lobes.kind == SurfaceKind::Diffuse && same_images(images, kNoImages); }
+    bool is_plain() const {
+        return lobes.kind == SurfaceKind::Diffuse && same_images(images, kNoImages) && same_opacity(opacity, kOpaque);
+    }
 };
 
 bool same_lobes(const SurfaceLobes& a, const SurfaceLobes& b) {
@@ -37,7 +46,8 @@ bool same_walks(const Looks& a, const Looks& b) {
         a.material.two_sided_emission != b.material.two_sided_emission)
         return false;
     if (a.is_plain() && b.is_plain()) return true;
-    return a.material.albedo == b.material.albedo && same_lobes(a.lobes, b.lobes) && same_images(a.images, b.images);
+    return a.material.albedo == b.material.albedo && same_lobes(a.lobes, b.lobes) &&
+           same_images(a.images, b.images) && same_opacity(a.opacity, b.opacity);
 }
 
 bool same_light(const Light& a, const Light& b) {

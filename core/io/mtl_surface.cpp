@@ -110,8 +110,14 @@ MaterialDescription surface_of(const MtlEntry& entry, std::vector<std::string>& 
         material.albedo = kDefaultAlbedo;
         notes.emplace_back("has neither Kd nor Ke and is shown in the default color");
     }
-    if (entry.d.value_or(1.0f) < 1.0f && !is_glass(material.kind)) {
-        notes.emplace_back("is partly transparent (d, Tr) without refraction (Tf, Ni): shown opaque");
+    if (!is_glass(material.kind)) {
+        material.opacity = entry.d.value_or(1.0f);
+    }
+    if (material.opacity == 0.0f) {
+        notes.emplace_back("is invisible: its opacity is 0 (d, Tr)");
+    }
+    if (material.opacity < 1.0f || entry.map_d) {
+        material.opacity_rule = OpacityRule::Blend;
     }
     if (material.kind == SurfaceKind::Diffuse) {
         return material;

@@ -11,12 +11,14 @@
 #include "core/io/camera_file.h"
 #include "core/io/files.h"
 #include "core/io/frame_camera.h"
+#include "core/io/image.h"
 #include "core/io/json_document.h"
 #include "core/io/listed_cameras.h"
 #include "core/io/mesh_file.h"
 #include "core/io/scene_knobs.h"
 #include "core/io/scene_lights.h"
 #include "core/io/scene_materials.h"
+#include "core/io/texture_file.h"
 
 namespace pl {
 
@@ -88,6 +90,26 @@ ObjNormals read_normals(const JsonDocument& file) {
     return lengths == "unit" ? ObjNormals::Unit : ObjNormals::Any;
 }
 
+/// The texels of an image, row by row from the top, are the colors of the vertices.
+void read_vertex_colors(const JsonDocument& file, SceneDescription& scene) {
+    const std::string pointer = "/vertex_colors";
+    const std::optional<std::string> name = file.text(pointer);
+    if (!name) {
+        return;
+    }
+    const std::filesystem::path path = path_inside(scene.source.parent_path(), *name);
+    if (path.empty()) {
+        file.fail(pointer, fmt::format("expected a file in the folder of the scene, got '{}'", *name));
+    }
+    scene.vertex_colors = read_linear(path).pixels;
+    if (scene.vertex_colors.size() < scene.positions.size()) {
+        file.fail(pointer, fmt::format("expected an image with a texel for each of {} vertices, got {}",
+                                       scene.positions.size(), scene.vertex_colors.size()));
+    }
+    scene.vertex_colors.resize(scene.positions.size());
+    scene.files.push_back(path);
+}
+
 void read_settings(const JsonDocument& file, SceneDescription& scene) {
     const nlohmann::json* const settings = file.object("/settings", kSettings);
     if (settings == nullptr) {
@@ -110,8 +132,8 @@ void read_settings(const JsonDocument& file, SceneDescription& scene) {
 
 SceneDescription load_scene_json(const std::filesystem::path& path, const LoadSettings& asked) {
     const JsonDocument file(read_text_file(path), path);
-    file.object("", {"schema", "name", "obj", "normals", "camera", "cameras", "environment", "lights", "materials",
-                     "knobs", "settings"});
+    file.object("", {"schema", "name", "obj", "normals", "vertex_colors", "camera", "cameras", "environment",
+                     "lights", "materials", "knobs", "settings"});
     const std::optional<std::string> schema = file.text("/schema");
     if (schema != kSchema) {
         file.fail("/schema",
@@ -126,6 +148,7 @@ SceneDescription load_scene_json(const std::filesystem::path& path, const LoadSe
     scene.source = path;
     scene.files.push_back(path);
     scene.name = file.text("/name").value_or(path.stem().string());
+    read_vertex_colors(file, scene);
     read_materials(file, scene);
     read_knobs(file, scene, groups, asked.knobs);
     read_environment(file, scene);

@@ -1,7 +1,9 @@
 #include "core/io/scene_materials.h"
 
 #include <algorithm>
+#include <array>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
@@ -118,16 +120,28 @@ void read_images(const JsonDocument& file, const std::string& at, SceneDescripti
     }
 }
 
-NormalGreen read_green(const JsonDocument& file, const std::string& pointer, NormalGreen standard) {
+/// One of the names of an enumeration, in the order of its values.
+template <class Choice, std::size_t kCount>
+std::optional<Choice> read_choice(const JsonDocument& file, const std::string& pointer,
+                                  const std::array<std::string_view, kCount>& names) {
     const std::optional<std::string> name = file.text(pointer);
     if (!name) {
-        return standard;
+        return std::nullopt;
     }
-    const auto known = std::find(kNormalGreenNames.begin(), kNormalGreenNames.end(), *name);
-    if (known == kNormalGreenNames.end()) {
-        file.fail(pointer, fmt::format("expected one of {}, got '{}'", fmt::join(kNormalGreenNames, ", "), *name));
+    const auto known = std::find(names.begin(), names.end(), *name);
+    if (known == names.end()) {
+        file.fail(pointer, fmt::format("expected one of {}, got '{}'", fmt::join(names, ", "), *name));
     }
-    return static_cast<NormalGreen>(known - kNormalGreenNames.begin());
+    return static_cast<Choice>(known - names.begin());
+}
+
+/// A partial opacity blends unless the file says otherwise.
+void read_opacity(const JsonDocument& file, const std::string& at, MaterialDescription& material) {
+    const std::optional<float> opacity = read_within(file, at + "/opacity", 0.0f, 1.0f);
+    const OpacityRule standard = opacity.value_or(1.0f) < 1.0f ? OpacityRule::Blend : material.opacity_rule;
+    material.opacity = opacity.value_or(material.opacity);
+    material.opacity_rule =
+        read_choice<OpacityRule>(file, at + "/opacity_rule", kOpacityRuleNames).value_or(standard);
 }
 
 void read_sun(const JsonDocument& file, SunDescription& sun) {
@@ -175,7 +189,8 @@ void read_materials(const JsonDocument& file, SceneDescription& scene) {
                          "opacity_map",      "normal_map",         "wrap",
                          "albedo_map_wrap",  "roughness_map_wrap", "emission_map_wrap",
                          "opacity_map_wrap", "normal_map_wrap",    "normal_strength",
-                         "normal_green",     "absorption"});
+                         "normal_green",     "absorption",         "opacity",
+                         "opacity_rule"});
         MaterialDescription& material = find_material(file, scene, name);
         material.albedo = read_share(file, at + "/albedo").value_or(material.albedo);
         material.emission = read_light(file, at + "/emission").value_or(material.emission);
@@ -184,7 +199,9 @@ void read_materials(const JsonDocument& file, SceneDescription& scene) {
         read_images(file, at, scene, material.textures);
         material.normal_strength =
             read_within(file, at + "/normal_strength", 0.0f, kMostNormalStrength).value_or(material.normal_strength);
-        material.normal_green = read_green(file, at + "/normal_green", material.normal_green);
+        material.normal_green =
+            read_choice<NormalGreen>(file, at + "/normal_green", kNormalGreenNames).value_or(material.normal_green);
+        read_opacity(file, at, material);
     }
 }
 
@@ -208,7 +225,9 @@ Json material_json(const MaterialDescription& material) {
               {"roughness", material.roughness},
               {"ior", material.ior},
               {"specular", vector_json(material.specular)},
-              {"transmission", vector_json(material.transmission)}};
+              {"transmission", vector_json(material.transmission)},
+              {"opacity", material.opacity},
+              {"opacity_rule", kOpacityRuleNames[static_cast<std::size_t>(material.opacity_rule)]}};
     if (material.edge_tint != glm::vec3(1.0f)) json["edge_tint"] = vector_json(material.edge_tint);
     if (material.absorption != glm::vec3(0.0f)) json["absorption"] = vector_json(material.absorption);
     return json;

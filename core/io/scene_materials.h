@@ -13,7 +13,8 @@ namespace pl {
 ///   albedo, emission, specular, edge_tint, transmission, absorption   [r, g, b]
 ///   two_sided_emission                         true, false
 ///   surface                                    "diffuse", "conductor", "dielectric", "plastic", "pane"
-///   roughness, ior, normal_strength            numbers
+///   roughness, ior, normal_strength, opacity   numbers
+///   opacity_rule                               "threshold", "blend": the standard of an opacity below 1
 ///   normal_green                               "up", "down", "left"
 ///   albedo_map, roughness_map, emission_map, opacity_map, normal_map    images in the folder of the scene or below; "" for none
 ///   wrap                                       "repeat" (default) or "clamp", for these images

@@ -16,6 +16,9 @@ inline constexpr std::array<std::string_view, 5> kSurfaceNames = {"diffuse", "co
 /// [NormalGreen]
 inline constexpr std::array<std::string_view, 3> kNormalGreenNames = {"up", "down", "left"};
 
+/// [OpacityRule]
+inline constexpr std::array<std::string_view, 2> kOpacityRuleNames = {"threshold", "blend"};
+
 inline std::optional<SurfaceKind> surface_kind(std::string_view name) {
     for (std::size_t i = 0; i < kSurfaceNames.size(); ++i) {
         if (kSurfaceNames[i] == name) {

@@ -75,6 +75,10 @@ public:
         write_mesh(scene_, names, folder_, "mesh");
         Json document{{"schema", "pathlight.scene/1"}, {"name", scene_.name}, {"obj", shown("mesh.obj")}};
         if (!scene_.normals.empty()) document["normals"] = "unit";
+        if (!scene_.vertex_colors.empty()) {
+            write_vertex_colors(folder_ / "vertex-colors.exr", scene_.vertex_colors);
+            document["vertex_colors"] = shown("vertex-colors.exr");
+        }
         add_cameras(document);
         add_environment(document);
         for (const PunctualLightDescription& light : scene_.punctual_lights)

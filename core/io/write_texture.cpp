@@ -64,6 +64,15 @@ std::string write_texture(const std::filesystem::path& folder, const std::string
     return name + ".exr";
 }
 
+void write_vertex_colors(const std::filesystem::path& path, const std::vector<glm::vec3>& colors) {
+    constexpr std::size_t kMostColumns = 4096;
+    const std::size_t columns = std::clamp<std::size_t>(colors.size(), 1, kMostColumns);
+    const std::size_t rows = (colors.size() + columns - 1) / columns;
+    LinearImage image{.width = static_cast<int>(columns), .height = static_cast<int>(rows), .pixels = colors};
+    image.pixels.resize(columns * rows, glm::vec3(0.0f));
+    write_exr(path, image);
+}
+
 void write_environment_map(const std::filesystem::path& path, const EnvironmentMapDescription& map) {
     write_exr(path,
               {.width = static_cast<int>(map.width), .height = static_cast<int>(map.height), .pixels = map.texels});

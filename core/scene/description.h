@@ -23,7 +23,7 @@ struct TextureUse {
     std::uint32_t albedo = kNoTexture;
     std::uint32_t roughness = kNoTexture;  ///< first channel
     std::uint32_t emission = kNoTexture;
-    std::uint32_t opacity = kNoTexture;  ///< alpha channel; a hole below one half
+    std::uint32_t opacity = kNoTexture;  ///< alpha channel; see OpacityRule
     std::uint32_t normal = kNoTexture;   ///< normals, which replace those of the surface: see normal_map.h
 
     bool any() const { return (albedo & roughness & emission & opacity & normal) != kNoTexture; }
@@ -48,6 +48,12 @@ enum class NormalGreen : std::uint32_t {
     Left,  ///< to the left of u, seen from the front; on mirrored images down
 };
 
+/// How a surface shows its opacity, a number times that of an image.
+enum class OpacityRule : std::uint32_t {
+    Threshold,  ///< below one half there is a hole, else the surface is solid
+    Blend,      ///< the share of light that the surface meets; the rest goes straight on
+};
+
 /// Reflection, transmission and emission of a surface. Colors are linear RGB.
 struct MaterialDescription {
     std::string name;
@@ -64,7 +70,11 @@ struct MaterialDescription {
     TextureUse textures{};
     float normal_strength = 1.0f;  ///< factor of the slopes in textures.normal, at least 0
     NormalGreen normal_green = NormalGreen::Up;
+    float opacity = 1.0f;  ///< in [0, 1]
+    OpacityRule opacity_rule = OpacityRule::Threshold;
 
+    /// Whether rays may pass the surface as if it were not there.
+    bool may_have_holes() const { return textures.opacity != kNoTexture || opacity < 1.0f; }
     bool absorbs() const { return kind == SurfaceKind::Dielectric && absorption != glm::vec3(0.0f); }
     friend bool operator==(const MaterialDescription&, const MaterialDescription&) = default;
 };
@@ -177,6 +187,8 @@ struct SceneDescription {
     std::filesystem::path source;              ///< the file that was opened, for messages
     std::vector<std::filesystem::path> files;  ///< looked for by the loaders, without images, which have a `source`
     std::vector<glm::vec3> positions;
+    /// Colors of the vertices at `positions`, each channel in [0, 1], which multiply what albedo textures multiply; or none.
+    std::vector<glm::vec3> vertex_colors;
     std::vector<glm::vec3> normals;
     std::vector<glm::vec2> uvs;
     std::vector<TriangleDescription> triangles;

@@ -63,9 +63,10 @@ std::string reason_of(Feature feature, const SceneDescription& scene, const Came
     case Feature::Specular: return materials_that(scene, [](const auto& m) { return has_lobe(m, false); });
     case Feature::Rough: return materials_that(scene, [](const auto& m) { return has_lobe(m, true); });
     case Feature::Plastic: return materials_that(scene, [](const auto& m) { return m.kind == SurfaceKind::Plastic; });
-    case Feature::Textures: return materials_that(scene, [](const auto& m) { return m.textures.any(); });
-    case Feature::CutOuts:
-        return materials_that(scene, [](const auto& m) { return m.textures.opacity != kNoTexture; });
+    case Feature::Textures:
+        return materials_that(scene, [](const auto& m) { return m.textures.any(); }) +
+               (scene.vertex_colors.empty() ? "" : "; vertices have colors");
+    case Feature::CutOuts: return materials_that(scene, [](const auto& m) { return m.may_have_holes(); });
     case Feature::EnvironmentMap: return far_lights_of(scene);
     case Feature::ThinLens: return fmt::format("the camera's lens has a radius of {}", camera.aperture_radius);
     case Feature::ManyLights: return many_lights_of(scene);

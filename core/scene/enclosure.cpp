@@ -32,10 +32,8 @@ std::vector<std::uint32_t> places_of(const std::vector<glm::vec3>& positions) {
     return places;
 }
 
-/// Opaque: neither a dielectric nor with holes.
-bool is_solid(const MaterialDescription& material) {
-    return !is_glass(material.kind) && material.textures.opacity == kNoTexture;
-}
+/// Opaque: neither a dielectric nor with holes or partial opacity.
+bool is_solid(const MaterialDescription& material) { return !is_glass(material.kind) && !material.may_have_holes(); }
 
 /// Edges of all opaque triangles with an area, sorted by their ends.
 std::vector<Edge> edges_of(const SceneDescription& scene) {

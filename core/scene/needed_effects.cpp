@@ -42,8 +42,8 @@ FeatureSet needed_effects(const HostScene& scene) {
     if (!scene.triangle_normals.empty()) set = set.with(Feature::SmoothNormals);
     if (!is_black(scene.environment)) set = set.with(Feature::Environment);
     for (const SurfaceLobes& lobes : scene.lobes) set = set.with(effects_of(lobes));
-    if (!scene.images.empty()) set = set.with(Feature::Textures);
-    if (scene.has_holes != 0) set = set.with(Feature::CutOuts);
+    if (!scene.images.empty() || !scene.vertex_colors.empty()) set = set.with(Feature::Textures);
+    if (!scene.opacities.empty()) set = set.with(Feature::CutOuts);
     if (!scene.normal_maps.empty()) set = set.with(Feature::NormalMaps);
     if (!scene.light_nodes.empty()) set = set.with(Feature::ManyLights);
     if (!scene.delta_lights.empty()) set = set.with(Feature::DeltaLights);

@@ -71,6 +71,17 @@ Vec3f guided_albedo(const MaterialDescription& m) {
     return Vec3f{0.0f};
 }
 
+/// Nothing unless a vertex in use has a color.
+void pack_vertex_colors(const SceneDescription& scene, HostScene& packed) {
+    const auto has_color = [&](const TriangleDescription& t) {
+        for (int k = 0; k < 3; ++k)
+            if (scene.vertex_colors[t.vertex[k]] != glm::vec3(1.0f)) return true;
+        return false;
+    };
+    if (!scene.vertex_colors.empty() && std::ranges::any_of(scene.triangles, has_color))
+        packed.vertex_colors = scene.vertex_colors;
+}
+
 void pack_materials(const SceneDescription& scene, HostScene& packed) {
     packed.materials.reserve(scene.materials.size());
     for (const MaterialDescription& m : scene.materials)
@@ -168,6 +179,7 @@ void pack_looks(const SceneDescription& scene, HostScene& packed) {
     pack_materials(scene, packed);
     pack_lobes(scene, packed);
     pack_absorption(scene, packed);
+    pack_vertex_colors(scene, packed);
     pack_textures(scene, packed);  // replaces textured emission by its mean
     pack_lights(packed);
     packed.environment = scene.environment;

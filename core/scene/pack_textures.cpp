@@ -16,9 +16,11 @@ Vec3f mean_of(const TextureDescription& texture) {
     return Vec3f{sum / static_cast<double>(texture.texels.size())};
 }
 
-bool has_holes(const TextureDescription& texture) {
-    return std::any_of(texture.texels.begin(), texture.texels.end(),
-                       [](const glm::vec4& texel) { return unpack(pack_texel(texel)).w < kLeastOpacity; });
+/// Least opacity of an image, as kernels read it.
+float least_opacity(const TextureDescription& texture) {
+    float least = 1.0f;
+    for (const glm::vec4& texel : texture.texels) least = std::min(least, unpack(pack_texel(texel)).w);
+    return least;
 }
 
 float inverse_or_zero(float x) { return x > 0.0f ? 1.0f / x : 0.0f; }
@@ -40,10 +42,6 @@ public:
         const TextureUse& use = material.textures;
         if (use.albedo != kNoTexture && !is_black(tinted(material))) images.albedo = image(use.albedo);
         if (use.roughness != kNoTexture && is_rough) images.roughness = image(use.roughness);
-        if (use.opacity != kNoTexture && has_holes(scene_.textures[use.opacity])) {
-            images.opacity = image(use.opacity);
-            packed_.has_holes = 1;
-        }
         if (use.emission != kNoTexture && packed_material.emits()) {
             const Vec3f mean = mean_of(scene_.textures[use.emission]);
             packed_material.emission *= mean;
@@ -51,6 +49,15 @@ public:
             if (packed_material.emits()) images.emission = image(use.emission);
         }
         return images;
+    }
+
+    /// The standard, which is opaque, unless some ray may pass.
+    MaterialOpacity pack_opacity(const MaterialDescription& material) {
+        const std::uint32_t texture = material.textures.opacity;
+        const bool blends = material.opacity_rule == OpacityRule::Blend;
+        const float of_image = texture == kNoTexture ? 1.0f : least_opacity(scene_.textures[texture]);
+        if (material.opacity * of_image >= (blends ? 1.0f : kLeastOpacity)) return {};
+        return {of_image < 1.0f ? image(texture) : kNoImage, material.opacity, blends ? 1u : 0u};
     }
 
     NormalMap pack_normals(const MaterialDescription& material) {
@@ -99,20 +106,25 @@ void pack_uvs(const SceneDescription& scene, HostScene& packed) {
 }  // namespace
 
 void pack_textures(const SceneDescription& scene, HostScene& packed) {
-    if (scene.textures.empty()) return;
     std::vector<bool> used(scene.materials.size(), false);
     for (const TriangleDescription& t : scene.triangles) used[t.material] = true;
     ImagePacker packer(scene, packed);
     std::vector<MaterialImages> of_material(scene.materials.size());
     std::vector<NormalMap> normal_maps(scene.materials.size());
+    std::vector<MaterialOpacity> opacities(scene.materials.size());
     bool has_normals = false;
+    bool has_holes = false;
     for (std::size_t m = 0; m < scene.materials.size(); ++m) {
-        if (!used[m] || !scene.materials[m].textures.any()) continue;
+        if (!used[m]) continue;
+        opacities[m] = packer.pack_opacity(scene.materials[m]);
+        has_holes = has_holes || opacities[m].image != kNoImage || opacities[m].factor < 1.0f;
+        if (!scene.materials[m].textures.any()) continue;
         const bool is_rough = !packed.lobes.empty() && packed.lobes[m].roughness > 0.0f;
         of_material[m] = packer.pack(scene.materials[m], is_rough, packed.materials[m]);
         normal_maps[m] = packer.pack_normals(scene.materials[m]);
         has_normals = has_normals || normal_maps[m].image != kNoImage;
     }
+    if (has_holes) packed.opacities = std::move(opacities);
     if (packed.images.empty()) return;
     packed.material_images = std::move(of_material);
     if (has_normals) packed.normal_maps = std::move(normal_maps);

@@ -22,7 +22,7 @@ void add(Fnv1a& hash, const glm::uvec3& v) {
     hash.add(std::uint64_t{v.z});
 }
 
-/// Adds the optional parts of a scene (textures, lobes, far lights, lights without extent), each preceded by its name. Absent parts add
+/// Adds the optional parts of a scene (lobes, colors of vertices, opacities, textures, far lights, lights without extent), each preceded by its name. Absent parts add
 /// nothing, so that a new kind of part does not change the hashes of existing scenes.
 class PartHasher {
 public:
@@ -45,6 +45,22 @@ public:
             if (m.edge_tint == glm::vec3(1.0f)) continue;
             begin("edge tint", i);
             add(hash_, m.edge_tint);
+        }
+    }
+
+    void add_vertex_colors(const std::vector<glm::vec3>& colors) {
+        if (colors.empty()) return;
+        begin("vertex colors", colors.size());
+        for (const glm::vec3& color : colors) add(hash_, color);
+    }
+
+    void add_opacities(const std::vector<MaterialDescription>& materials) {
+        for (std::size_t i = 0; i < materials.size(); ++i) {
+            const MaterialDescription& m = materials[i];
+            if (!m.may_have_holes() || (m.opacity == 1.0f && m.opacity_rule == OpacityRule::Threshold)) continue;
+            begin("opacity", i);
+            hash_.add(m.opacity);
+            hash_.add(std::uint64_t{static_cast<std::uint32_t>(m.opacity_rule)});
         }
     }
 
@@ -142,6 +158,8 @@ std::string scene_hash(const SceneDescription& scene) {
     add(hash, scene.environment);
     PartHasher parts(hash);
     parts.add_surfaces(scene.materials);
+    parts.add_vertex_colors(scene.vertex_colors);
+    parts.add_opacities(scene.materials);
     parts.add_textures(scene);
     parts.add_far_lights(scene);
     parts.add_punctual_lights(scene.punctual_lights);

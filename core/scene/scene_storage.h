@@ -13,6 +13,7 @@ struct SceneStorage {
     Array<TrianglePlane> planes;
     Array<Vec3f> normals;
     Array<TriangleNormals> triangle_normals;
+    Array<Vec3f> vertex_colors;
     Array<Material> materials;
     Array<SurfaceLobes> lobes;
     Array<float> directional_albedo;
@@ -23,6 +24,7 @@ struct SceneStorage {
     Array<Texel> texels;
     Array<MaterialImages> material_images;
     Array<NormalMap> normal_maps;
+    Array<MaterialOpacity> opacities;
     Array<Light> lights;
     Array<LightNode> light_nodes;
     Array<LightPlace> light_places;
@@ -36,7 +38,6 @@ struct SceneStorage {
     Array<BvhTriangle> bvh_triangles;
     float light_power = 0.0f;
     Vec3f environment{0.0f};
-    std::uint32_t has_holes = 0;
     FarLights far_lights;  ///< without its arrays
     float far_probability = 0.0f;
     float delta_probability = 0.0f;
@@ -52,6 +53,7 @@ struct SceneStorage {
             .planes = view_of(planes),
             .normals = view_of(normals),
             .triangle_normals = view_of(triangle_normals),
+            .vertex_colors = view_of(vertex_colors),
             .materials = view_of(materials),
             .lobes = view_of(lobes),
             .directional_albedo = view_of(directional_albedo),
@@ -61,8 +63,8 @@ struct SceneStorage {
                          .images = view_of(images),
                          .texels = view_of(texels),
                          .of_material = view_of(material_images),
-                         .normal_maps = view_of(normal_maps),
-                         .has_holes = has_holes},
+                         .normal_maps = view_of(normal_maps)},
+            .opacities = view_of(opacities),
             .lights = view_of(lights),
             .light_tree = {.nodes = view_of(light_nodes),
                            .of_light = view_of(light_places),
@@ -87,6 +89,7 @@ void zip(const SceneStorage<From>& from, SceneStorage<To>& to, Fn&& fn) {
     fn(from.planes, to.planes);
     fn(from.normals, to.normals);
     fn(from.triangle_normals, to.triangle_normals);
+    fn(from.vertex_colors, to.vertex_colors);
     fn(from.materials, to.materials);
     fn(from.lobes, to.lobes);
     fn(from.directional_albedo, to.directional_albedo);
@@ -97,6 +100,7 @@ void zip(const SceneStorage<From>& from, SceneStorage<To>& to, Fn&& fn) {
     fn(from.texels, to.texels);
     fn(from.material_images, to.material_images);
     fn(from.normal_maps, to.normal_maps);
+    fn(from.opacities, to.opacities);
     fn(from.lights, to.lights);
     fn(from.light_nodes, to.light_nodes);
     fn(from.light_places, to.light_places);
@@ -110,7 +114,6 @@ void zip(const SceneStorage<From>& from, SceneStorage<To>& to, Fn&& fn) {
     fn(from.bvh_triangles, to.bvh_triangles);
     to.light_power = from.light_power;
     to.environment = from.environment;
-    to.has_holes = from.has_holes;
     to.far_lights = from.far_lights;
     to.far_probability = from.far_probability;
     to.delta_probability = from.delta_probability;

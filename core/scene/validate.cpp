@@ -58,6 +58,18 @@ void check_numbers(std::string& list, std::string_view what, const std::vector<g
     }
 }
 
+void check_vertex_colors(std::string& list, const SceneDescription& scene) {
+    if (!scene.vertex_colors.empty() && scene.vertex_colors.size() != scene.positions.size())
+        list +=
+            fmt::format("\n  there are {} colors of {} vertices", scene.vertex_colors.size(), scene.positions.size());
+    Complaint color(list);
+    for (std::size_t i = 0; i < scene.vertex_colors.size(); ++i)
+        if (!is_albedo(scene.vertex_colors[i]))
+            color.add([&] {
+                return fmt::format("the color {} of vertex {} is not within [0, 1]", show(scene.vertex_colors[i]), i);
+            });
+}
+
 void check_triangles(std::string& list, const SceneDescription& scene) {
     Complaint vertex(list);
     Complaint normal(list);
@@ -118,6 +130,9 @@ void check_surfaces(std::string& list, std::span<const MaterialDescription> mate
                                    kLeastIor, kMostIor);
             });
         }
+        if (!within(m.opacity, 0.0f, 1.0f))
+            number.add(
+                [&] { return fmt::format("material '{}': opacity {} is not within [0, 1]", m.name, m.opacity); });
         if (!is_finite(m.absorption) || glm::any(glm::lessThan(m.absorption, glm::vec3(0.0f))))
             number.add([&] {
                 return fmt::format("material '{}': absorption {} is not finite and at least 0", m.name,
@@ -233,6 +248,7 @@ void validate_scene(const SceneDescription& scene) {
     }
     check_numbers(list, "vertex", scene.positions);
     check_numbers(list, "normal", scene.normals);
+    check_vertex_colors(list, scene);
     check_triangles(list, scene);
     check_materials(list, scene.materials);
     check_surfaces(list, scene.materials);

@@ -25,6 +25,7 @@ EFFECTS = {
     "shading/environment_map.h": "textured-room",
     "shading/far_lights.h": "textured-room",
     "scene/texture.h": "textured-room",
+    "base/hash.h": str(Path(__file__).with_name("ink.json")),
     "scene/normal_map.h": str(Path(__file__).with_name("relief.obj")),
     "shading/light_tree.h": "gallery",
     "shading/delta_lights.h": str(Path(__file__).with_name("ink.json")),

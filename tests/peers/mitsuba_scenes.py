@@ -15,8 +15,9 @@ def diffuse(color):
 
 
 def shape(kind, place, surface, more=""):
-    """All surfaces of pathlight have two sides; `surface` with its own sides begins with '<bsdf type="dielectric"' or the like."""
-    has_sides = "dielectric" in surface.split(">")[0]
+    """All surfaces of pathlight have two sides; `surface` with its own sides begins with '<bsdf type="dielectric"' or the like, or is a
+    mask."""
+    has_sides = any(kind in surface.split(">")[0] for kind in ("dielectric", "mask"))
     bsdf = surface if has_sides else f'<bsdf type="twosided">{surface}</bsdf>'
     return f'<shape type="{kind}">{more}<transform name="to_world">{place}</transform>{bsdf}</shape>'
 
@@ -140,6 +141,27 @@ def textured(folder):
     content = (f'<shape type="obj"><string name="filename" value="ground.obj"/><bsdf type="twosided">{image}</bsdf></shape>' +
                sky() + box(image, (-0.55, 0.59, -0.4), (0.35, 0.6, 0.35), 25) +
                shape("rectangle", scaled(0.4, 0.4, 1) + turned("y", -20) + moved(0.5, 0.45, 0.3), image))
+    return scene(content, eye=(0.4, 1.7, 3.4), target=(0, 0.5, 0))
+
+
+def veil(x, y):
+    """Soft stripes from clear to opaque, which show the direction of an image."""
+    return (round(127.5 * (1 + math.cos(math.pi * (x + y / 2) / 8))),) * 3
+
+
+def masked(folder):
+    """Sheets and a block that let light through, by a number and by an image, before and around other surfaces."""
+    (folder / "veil.png").write_bytes(png(32, 32, veil))
+
+    def mask(opacity, color):
+        return f'<bsdf type="mask">{opacity}<bsdf type="twosided">{diffuse(color)}</bsdf></bsdf>'
+
+    image = mask('<texture type="bitmap" name="opacity"><string name="filename" value="veil.png"/><boolean name="raw" value="true"/></texture>',
+                 GREEN)
+    content = ground(diffuse(WHITE)) + sky() + box(diffuse(RED), (-0.55, 0.39, -0.4), (0.2, 0.4, 0.2), 25)
+    content += box(mask('<float name="opacity" value="0.4"/>', WHITE), (-0.55, 0.59, -0.4), (0.35, 0.6, 0.35), 25)
+    content += shape("rectangle", scaled(0.5, 0.5, 1) + turned("y", -20) + moved(0.5, 0.55, 0.3), image)
+    content += box(diffuse(WHITE), (0.5, 0.39, -0.4), (0.3, 0.4, 0.3), -20)
     return scene(content, eye=(0.4, 1.7, 3.4), target=(0, 0.5, 0))
 
 

@@ -33,6 +33,7 @@ MITSUBA = [
     Case("environment-map", lambda folder: xml.outside(xml.environment_map(folder), WHITE, xml.diffuse(xml.RED)), DIFFUSE,
          32, 128, ((-0.002, 0.002),) * 3, "Mitsuba spreads n texels of a map over n - 1 intervals"),
     Case("textured", xml.textured, DIFFUSE, 32, 64),
+    Case("mask", xml.masked, DIFFUSE, 32, 96),
     Case("checkers", xml.checkered, DIFFUSE, 32, 64),
     Case("bump-map", lambda folder: xml.bump_mapped(folder, WHITE), DIFFUSE, 48, 128, ((0.0, 0.0025),) * 3,
          "a diffuse surface whose mapped normal faces away from the viewer is black in Mitsuba"),

@@ -243,10 +243,15 @@ TEST_CASE("Each effect changes the picture of a scene that needs it") {
     mapped.environment_map = linear_sky(1.0f, 0.5f);
     SceneDescription sunny = plain;
     sunny.sun = {.direction = {0, 1, -1}, .radiance = glm::vec3(1.0f), .angle_deg = 60.0f};
+    SceneDescription veiled = plain;
+    for (MaterialDescription& material : veiled.materials) {
+        material.opacity = 0.9f;
+        material.opacity_rule = OpacityRule::Blend;
+    }
     SceneDescription lens = plain;
     lens.camera.aperture_radius = 5.0f;
     for (const SceneDescription& changed :
-         {painted, mapped, sunny, with_lattices(plain, glm::vec3(0.0f), glm::vec3(500.0f))})
+         {painted, mapped, sunny, veiled, with_lattices(plain, glm::vec3(0.0f), glm::vec3(500.0f))})
         CHECK_FALSE(same_film(expected, render(changed, settings, {.threads = 2})));
     CHECK_FALSE(same_film(expected, render(plain, small_settings(lens, {MethodId::Default, true}), {.threads = 2})));
 }

@@ -69,6 +69,9 @@ TEST_CASE("Enclosure: light passes through glass and holes, and triangles withou
     SceneDescription net = box;
     net.materials[kWallX0].textures.opacity = 0;
     CHECK_FALSE(Enclosure(net).contains(glm::vec3{0.5f}));
+    SceneDescription veil = box;
+    veil.materials[kWallX0].opacity = 0.5f;
+    CHECK_FALSE(Enclosure(veil).contains(glm::vec3{0.5f}));
 }
 
 TEST_CASE("Enclosure: each surface counts alone, and one that is open does not spoil another") {

@@ -73,6 +73,15 @@ bool draw_emission(MaterialDescription& m, const MaterialDescription& file) {
     return changed;
 }
 
+/// A number that the user has moved is shown as the share that it is.
+bool draw_opacity(MaterialDescription& m, const MaterialDescription& file) {
+    const bool changed =
+        slider_row("Opacity", "Share of the light that meets the surface; the rest goes straight on.", &m.opacity,
+                   {0.0f, 1.0f, file.opacity, "%.3f"});
+    if (changed) m.opacity_rule = m.opacity < 1.0f ? OpacityRule::Blend : file.opacity_rule;
+    return changed;
+}
+
 void draw_textures(const TextureUse& use, const SceneDescription& scene) {
     const auto row = [&](const char* label, std::uint32_t texture) {
         if (texture == kNoTexture) return;
@@ -82,7 +91,7 @@ void draw_textures(const TextureUse& use, const SceneDescription& scene) {
     row("Color map", use.albedo);
     row("Rough map", use.roughness);
     row("Light map", use.emission);
-    row("Holes", use.opacity);
+    row("Opacity map", use.opacity);
     row("Normal map", use.normal);
 }
 
@@ -108,6 +117,7 @@ void draw_material_tab(ViewerModel& model) {
     material.kind = static_cast<SurfaceKind>(kind);
     changed |= draw_reflection(material, file);
     changed |= draw_emission(material, file);
+    changed |= draw_opacity(material, file);
     draw_textures(material.textures, *model.scene().materials().file());
     if (changed) model.scene().set_material(index, material);
     draw_restore(model, index);

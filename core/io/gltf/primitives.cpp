@@ -94,17 +94,31 @@ void GltfMeshes::read_attributes(GltfPrimitive& primitive) {
         primitive.joints = read_integers(file_, *joints, "VEC4");
         primitive.weights = read_floats(file_, *weights, "VEC4");
     }
-    const std::string color = primitive.at + "/attributes/COLOR_0";
-    if (const auto accessor = attribute(primitive, "COLOR_0")) {
-        const std::vector<float> colors = read_floats(file_, *accessor, accessor_type(file_, *accessor));
-        if (std::any_of(colors.begin(), colors.end(), [](float value) { return value != 1.0f; }))
-            file_.note("colors of vertices are left out", color);
-    }
+    read_colors(primitive);
     if (file_.json().has(primitive.at + "/targets"))
         file_.note("morph targets are left out: the base shape is shown", primitive.at);
     for (const char* more : {"/attributes/JOINTS_1", "/extensions/KHR_materials_variants"})
         if (file_.json().has(primitive.at + more))
             file_.note(fmt::format("{} is left out", std::strrchr(more, '/') + 1), primitive.at + more);
+}
+
+void GltfMeshes::read_colors(GltfPrimitive& primitive) {
+    const auto accessor = attribute(primitive, "COLOR_0");
+    if (!accessor) return;
+    const std::string at = primitive.at + "/attributes/COLOR_0";
+    const bool has_alpha = accessor_type(file_, *accessor) == "VEC4";
+    const std::vector<float> values = read_floats(file_, *accessor, has_alpha ? "VEC4" : "VEC3");
+    const std::size_t channels = has_alpha ? 4 : 3;
+    bool is_white = true;
+    for (std::size_t i = 0; i + channels <= values.size(); i += channels) {
+        const glm::vec3 color(values[i], values[i + 1], values[i + 2]);
+        const glm::vec3 inside = glm::clamp(color, glm::vec3(0.0f), glm::vec3(1.0f));
+        if (inside != color) file_.note("colors of vertices outside of [0, 1] are moved into it", at);
+        if (has_alpha && values[i + 3] != 1.0f) file_.note("opacities of vertices are left out", at);
+        is_white = is_white && inside == glm::vec3(1.0f);
+        primitive.colors.push_back(inside);
+    }
+    if (is_white) primitive.colors.clear();
 }
 
 void GltfMeshes::read_uvs(GltfPrimitive& primitive, std::size_t vertices) {

@@ -24,6 +24,7 @@ struct GltfPrimitive {
     std::vector<glm::vec3> positions{};
     std::vector<glm::vec3> normals{};     ///< per vertex, or none
     std::vector<glm::vec2> uvs{};         ///< per vertex, or none; as UvMapping::apply() gives them
+    std::vector<glm::vec3> colors{};      ///< per vertex, in [0, 1], or none
     std::vector<std::uint32_t> joints{};  ///< [vertex][4], or none: indices into the joints of a skin
     std::vector<float> weights{};         ///< [vertex][4]
     std::vector<std::array<std::uint32_t, 3>> triangles{};
@@ -40,6 +41,7 @@ public:
 private:
     GltfPrimitive read(const std::string& at);
     void read_attributes(GltfPrimitive& primitive);
+    void read_colors(GltfPrimitive& primitive);
     void read_uvs(GltfPrimitive& primitive, std::size_t vertices);
     void read_triangles(GltfPrimitive& primitive);
     std::vector<std::uint32_t> read_corners(const GltfPrimitive& primitive);

@@ -212,34 +212,26 @@ private:
         const std::string mode = json_.text(at_ + "/alphaMode").value_or("OPAQUE");
         if (mode != "OPAQUE" && mode != "MASK" && mode != "BLEND")
             file_.fail(at_ + "/alphaMode", fmt::format("expected OPAQUE, MASK or BLEND, got '{}'", mode));
-        const bool has_image = json_.has(base_at_);
-        const float cutoff = mode == "MASK" ? number(at_ + "/alphaCutoff", kGltfHalf, 0.0f, 1.0f) : kGltfHalf;
-        const bool has_holes = mode != "OPAQUE" && cutoff > 0.0f;
-        if (has_holes && has_image) {
-            // Holes are where the texture's alpha is below one half.
-            material_.textures.albedo = images_.color(base_at_, alpha_ * kGltfHalf / cutoff);
-            material_.textures.opacity = material_.textures.albedo;
-            if (mode == "BLEND") note("partial opacity is shown as holes where it is below one half");
-            return;
-        }
-        material_.textures.albedo = images_.color(base_at_);
-        surface_.is_hidden = mode == "MASK" && alpha_ < cutoff;
-        if (mode == "BLEND" && alpha_ < 1.0f) read_pane();
+        if (mode == "MASK")
+            read_mask();
+        else
+            material_.textures.albedo = images_.color(base_at_);
+        if (mode != "BLEND") return;
+        material_.opacity = alpha_;
+        material_.opacity_rule = OpacityRule::Blend;
+        material_.textures.opacity = material_.textures.albedo;
+        surface_.is_hidden = alpha_ == 0.0f;
     }
 
-    /// An even partial opacity: a pane that bends nothing, or an opaque surface.
-    void read_pane() {
-        if (alpha_ >= kGltfHalf) {
-            note("an even opacity of one half and more is shown as opaque");
-            return;
-        }
-        material_.kind = SurfaceKind::Dielectric;
-        material_.ior = 1.0f;
-        material_.roughness = 0.0f;
-        material_.textures.roughness = kNoTexture;
-        material_.transmission = glm::mix(glm::vec3(1.0f), base_, alpha_);
-        surface_.metalness = 0.0f;
-        note("an even opacity below one half is shown as a clear pane of its tint");
+    void read_mask() {
+        const float cutoff = number(at_ + "/alphaCutoff", kGltfHalf, 0.0f, 1.0f);
+        const bool has_holes = cutoff > 0.0f && json_.has(base_at_);
+        // Holes are where the texture's alpha is below one half.
+        material_.textures.albedo = images_.color(base_at_, has_holes ? alpha_ * kGltfHalf / cutoff : 1.0f);
+        if (has_holes)
+            material_.textures.opacity = material_.textures.albedo;
+        else
+            surface_.is_hidden = alpha_ < cutoff;
     }
 
     void read_normals() {

@@ -11,6 +11,8 @@
 namespace pl {
 namespace {
 
+constexpr glm::vec3 kWhite(1.0f);
+
 /// Transformation of normals: the inverse transposed without its factor, which may be infinite.
 glm::dmat3 normal_transform(const glm::dmat3& m) {
     const glm::dmat3 cofactors(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
@@ -52,6 +54,7 @@ public:
             const GltfNode& node = nodes_.all[number];
             if (node.mesh) add_mesh(node);
         }
+        if (!scene_.vertex_colors.empty()) scene_.vertex_colors.resize(scene_.positions.size(), kWhite);
     }
 
 private:
@@ -89,6 +92,9 @@ private:
             }
         }
         scene_.uvs.insert(scene_.uvs.end(), primitive.uvs.begin(), primitive.uvs.end());
+        if (primitive.colors.empty()) return;
+        scene_.vertex_colors.resize(first_vertex_, kWhite);
+        scene_.vertex_colors.insert(scene_.vertex_colors.end(), primitive.colors.begin(), primitive.colors.end());
     }
 
     void add_position(const GltfPrimitive& primitive, const glm::dvec3& position) {

@@ -85,7 +85,7 @@ private:
     }
 
     /// The scene's material of a shape: one for each surface, inside and radiance.
-    std::uint32_t material_of(const MitsubaObject& shape) {
+    ShapeMaterial material_of(const MitsubaObject& shape) {
         MitsubaObject surface;
         Emission emission;
         for (const MitsubaObject& child : shape.children()) {
@@ -99,8 +99,8 @@ private:
         if (shape.property("exterior")) shape.note("media outside of shapes are left out");
         const auto key = std::make_tuple(surface.identity(), inside.identity(), emission.image.identity(),
                                          emission.radiance.x, emission.radiance.y, emission.radiance.z);
-        const auto [known, is_new] = materials_.try_emplace(key, static_cast<std::uint32_t>(scene_.materials.size()));
-        if (is_new) add_material(surface, inside, emission);
+        const auto [known, is_new] = materials_.try_emplace(key);
+        if (is_new) known->second = add_material(surface, inside, emission);
         return known->second;
     }
 
@@ -120,7 +120,7 @@ private:
         return {.radiance = emitter.color("radiance").value_or(glm::vec3(1.0f))};
     }
 
-    void add_material(const MitsubaObject& surface, const MitsubaObject& inside, const Emission& emission) {
+    ShapeMaterial add_material(const MitsubaObject& surface, const MitsubaObject& inside, const Emission& emission) {
         MitsubaSurface read;
         read.material.albedo = glm::vec3(emission.radiance == glm::vec3(0.0f) ? 0.5f : 0.0f);
         if (surface) read = mitsuba_surface(file_, surface, scene_);
@@ -132,6 +132,8 @@ private:
             material.textures.emission = image.value_or(kNoTexture);
             if (!read.image) read.image = emission.image;
         }
+        if (emission.radiance != glm::vec3(0.0f) && material.may_have_holes())
+            surface.note("the light of shapes with a mask is masked, too");
         if (inside) set_inside(inside, material);
         const std::string id = surface ? surface.attribute("id") : "";
         material.name = id.empty() ? fmt::format("material {}", scene_.materials.size()) : id;
@@ -139,7 +141,8 @@ private:
                         [&](const MaterialDescription& other) { return other.name == material.name; }))
             material.name += fmt::format(" ({})", scene_.materials.size());
         scene_.materials.push_back(material);
-        surfaces_.push_back(std::move(read));
+        surfaces_.push_back(read);
+        return {static_cast<std::uint32_t>(scene_.materials.size() - 1), read.shows_vertex_colors};
     }
 
     /// Transformations of images, and reliefs, by the triangles that they are on.
@@ -224,7 +227,7 @@ private:
 
     MitsubaFile file_;
     SceneDescription scene_;
-    std::map<std::tuple<const void*, const void*, const void*, float, float, float>, std::uint32_t> materials_;
+    std::map<std::tuple<const void*, const void*, const void*, float, float, float>, ShapeMaterial> materials_;
     std::map<const void*, SceneDescription> groups_;
     std::vector<MitsubaSurface> surfaces_;  ///< [material]
 };

@@ -53,6 +53,17 @@ struct PlyElement {
     std::vector<PlyProperty> properties{};
 };
 
+std::optional<int> channel_of(std::string_view name) {
+    if (name == "red" || name == "r") return 0;
+    if (name == "green" || name == "g") return 1;
+    return name == "blue" || name == "b" ? std::optional(2) : std::nullopt;
+}
+
+/// The number of a full color.
+float largest_color(const PlyType& type) {
+    return type.kind == 'f' ? 1.0f : std::exp2(static_cast<float>(8 * type.bytes)) - 1.0f;
+}
+
 class PlyReader {
 public:
     explicit PlyReader(const std::filesystem::path& path) : path_(path), bytes_(read_file(path)) {}
@@ -156,9 +167,9 @@ private:
     }
 
     void read_element(const PlyElement& element) {
-        glm::vec3 position(0.0f), normal(0.0f);
+        glm::vec3 position(0.0f), normal(0.0f), color(0.0f);
         glm::vec2 uv(0.0f);
-        bool has_normal = false, has_uv = false;
+        bool has_normal = false, has_uv = false, has_color = false;
         for (const PlyProperty& property : element.properties) {
             if (property.count != nullptr) {
                 read_list(element, property);
@@ -174,12 +185,16 @@ private:
             } else if (name == "u" || name == "s" || name == "v" || name == "t") {
                 uv[name == "u" || name == "s" ? 0 : 1] = value;
                 has_uv = true;
+            } else if (const std::optional<int> channel = channel_of(name)) {
+                color[*channel] = value / largest_color(*property.type);
+                has_color = true;
             }
         }
         if (element.name != "vertex") return;
         mesh_.positions.push_back(position);
         if (has_normal) mesh_.normals.push_back(normal);
         if (has_uv) mesh_.uvs.push_back(uv);
+        if (has_color) mesh_.colors.push_back(color);
     }
 
     void read_list(const PlyElement& element, const PlyProperty& property) {

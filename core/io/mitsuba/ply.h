@@ -12,8 +12,9 @@ namespace pl {
 
 struct PlyMesh {
     std::vector<glm::vec3> positions;
-    std::vector<glm::vec3> normals;                       ///< per vertex, or none
-    std::vector<glm::vec2> uvs;                           ///< per vertex, or none
+    std::vector<glm::vec3> normals;  ///< per vertex, or none
+    std::vector<glm::vec2> uvs;      ///< per vertex, or none
+    std::vector<glm::vec3> colors;   ///< per vertex, integers as shares of their largest; or none
     std::vector<std::array<std::uint32_t, 3>> triangles;  ///< polygons are cut as fans
 };
 

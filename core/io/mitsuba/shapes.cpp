@@ -123,14 +123,34 @@ ObjMesh mesh_of(PlyMesh read) {
     return mesh;
 }
 
-/// The mesh of a file; sets `is_flat` if the file says so.
-ObjMesh read_file_mesh(const MitsubaObject& shape, const std::filesystem::path& path, bool& is_flat) {
-    if (shape.type() == "obj") return read_obj_mesh(path);
-    if (shape.type() == "ply") return mesh_of(read_ply(path));
+/// The content of a file.
+struct FileMesh {
+    ObjMesh mesh;
+    std::vector<glm::vec3> vertex_colors{};
+    bool is_flat = false;  ///< the file says that its faces are flat
+};
+
+FileMesh read_file_mesh(const MitsubaObject& shape, const std::filesystem::path& path) {
+    if (shape.type() == "obj") return {.mesh = read_obj_mesh(path)};
+    if (shape.type() == "ply") {
+        PlyMesh read = read_ply(path);
+        std::vector<glm::vec3> colors = std::move(read.colors);
+        return {.mesh = mesh_of(std::move(read)), .vertex_colors = std::move(colors)};
+    }
     SerializedMesh read =
         read_serialized(path, static_cast<std::int64_t>(shape.number("shape_index").value_or(0.0f)));
-    is_flat = is_flat || read.is_flat;
-    return mesh_of(std::move(read.mesh));
+    return {.mesh = mesh_of(std::move(read.mesh)), .is_flat = read.is_flat};
+}
+
+/// The colors of a file's vertices, for a surface that shows them.
+std::vector<glm::vec3> shown_colors(const MitsubaObject& shape, std::vector<glm::vec3> colors) {
+    if (colors.empty()) shape.note("surfaces that show colors of vertices are white on shapes without such");
+    for (glm::vec3& color : colors) {
+        const glm::vec3 inside = glm::clamp(color, glm::vec3(0.0f), glm::vec3(1.0f));
+        if (inside != color) shape.note("colors of vertices outside of [0, 1] are moved into it");
+        color = inside;
+    }
+    return colors;
 }
 
 /// Normals as Mitsuba has them: none, those of the file, or those of a smooth surface.
@@ -192,6 +212,11 @@ void append(SceneDescription added, SceneDescription& scene) {
         triangle.uv = shift(triangle.uv, scene.uvs.size());
     }
     const auto join = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
+    if (!scene.vertex_colors.empty() || !added.vertex_colors.empty()) {
+        scene.vertex_colors.resize(scene.positions.size(), glm::vec3(1.0f));
+        added.vertex_colors.resize(added.positions.size(), glm::vec3(1.0f));
+        join(scene.vertex_colors, added.vertex_colors);
+    }
     join(scene.positions, added.positions);
     join(scene.normals, added.normals);
     join(scene.uvs, added.uvs);
@@ -201,18 +226,20 @@ void append(SceneDescription added, SceneDescription& scene) {
 
 }  // namespace
 
-void add_mitsuba_shape(const MitsubaObject& shape, std::uint32_t material, SceneDescription& scene) {
+void add_mitsuba_shape(const MitsubaObject& shape, const ShapeMaterial& material, SceneDescription& scene) {
     const std::string type = shape.type();
     glm::dmat4 to_world = shape.transform("to_world");
     ObjMesh mesh;
     SceneDescription added;
+    std::vector<glm::vec3> vertex_colors;
     added.source = scene.source;
     if (type == "obj" || type == "ply" || type == "serialized") {
         added.source = shape.file("filename");
         scene.files.push_back(added.source);
-        bool is_flat = shape.boolean("face_normals").value_or(false);
-        mesh = read_file_mesh(shape, added.source, is_flat);
-        settle_normals(is_flat, mesh);
+        FileMesh read = read_file_mesh(shape, added.source);
+        mesh = std::move(read.mesh);
+        vertex_colors = std::move(read.vertex_colors);
+        settle_normals(read.is_flat || shape.boolean("face_normals").value_or(false), mesh);
     } else if (type == "rectangle") {
         mesh = rectangle();
     } else if (type == "cube") {
@@ -233,9 +260,10 @@ void add_mitsuba_shape(const MitsubaObject& shape, std::uint32_t material, Scene
     move(shape, to_world, mesh);
     const bool is_mirrored = glm::determinant(glm::dmat3(to_world)) < 0.0;
     if (is_mirrored != shape.boolean("flip_normals").value_or(false)) turn_over(mesh);
-    const MaterialTable materials{.of_name = std::vector<std::uint32_t>(mesh.materials.size(), material),
-                                  .fallback = material};
+    const MaterialTable materials{.of_name = std::vector<std::uint32_t>(mesh.materials.size(), material.index),
+                                  .fallback = material.index};
     add_obj_triangles(added, std::move(mesh), materials, nullptr, usable_threads());
+    if (material.shows_vertex_colors) added.vertex_colors = shown_colors(shape, std::move(vertex_colors));
     append(std::move(added), scene);
 }
 
@@ -248,6 +276,7 @@ void add_mitsuba_instance(const MitsubaObject& instance, const SceneDescription&
     const glm::dmat4 to_world = instance.transform("to_world");
     SceneDescription copy;
     copy.positions = group.positions;
+    copy.vertex_colors = group.vertex_colors;
     copy.normals = group.normals;
     copy.uvs = group.uvs;
     copy.triangles = group.triangles;

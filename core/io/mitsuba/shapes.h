@@ -6,10 +6,16 @@
 
 namespace pl {
 
+/// The material of a shape.
+struct ShapeMaterial {
+    std::uint32_t index = 0;
+    bool shows_vertex_colors = false;
+};
+
 /// Adds the triangles of a `shape` element with this material: obj, ply, serialized, rectangle, cube, disk and sphere, the last two as fine
 /// meshes; others are left out with a note. Meshes without normals are smooth unless they have `faceNormals`, as in Mitsuba.
 /// Throws Error(Input).
-void add_mitsuba_shape(const MitsubaObject& shape, std::uint32_t material, SceneDescription& scene);
+void add_mitsuba_shape(const MitsubaObject& shape, const ShapeMaterial& material, SceneDescription& scene);
 
 /// Most triangles and vertices of a scene with all its instances.
 inline constexpr std::size_t kMostMitsubaTriangles = std::size_t{1} << 26;

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/io/line_reader.h"
+#include "core/io/mitsuba/adapters.h"
 #include "core/io/mtl_surface.h"
 #include "core/kernel/shading/fresnel.h"
 
@@ -78,7 +79,7 @@ public:
             material_.albedo = glm::vec3(0.5f);
         }
         if (is_rough) read_roughness();
-        return {.material = material_, .image = image_};
+        return {.material = material_, .image = image_, .shows_vertex_colors = shows_vertex_colors_};
     }
 
 private:
@@ -99,6 +100,10 @@ private:
             material_.textures.albedo = *image;
             image_ = texture;
             return glm::vec3(1.0f);
+        }
+        if (texture.type() == "mesh_attribute" && texture.text("name") == "vertex_color") {
+            shows_vertex_colors_ = true;
+            return within_one(glm::vec3(texture.number("scale").value_or(1.0f)));
         }
         texture.note(fmt::format("textures of the type {} are shown as one color", in_quotes(texture.type())));
         const glm::vec3 first = texture.color("color0").value_or(glm::vec3(0.4f));
@@ -206,13 +211,8 @@ private:
     SceneDescription& scene_;
     MaterialDescription material_;
     MitsubaObject image_;
+    bool shows_vertex_colors_ = false;
 };
-
-bool is_adapter(const std::string& type) {
-    constexpr std::array<std::string_view, 7> kAdapters = {"twosided", "mask",      "bumpmap",     "normalmap",
-                                                           "coating",  "blendbsdf", "roughcoating"};
-    return std::find(kAdapters.begin(), kAdapters.end(), type) != kAdapters.end();
-}
 
 }  // namespace
 
@@ -224,70 +224,21 @@ MitsubaObject mitsuba_target(const MitsubaFile& file, const MitsubaObject& objec
     return target;
 }
 
-namespace {
-
-/// The texture of an adapter of the type normalmap or bumpmap: an image, or nothing.
-MitsubaObject texture_of(const MitsubaFile& file, const MitsubaObject& adapter) {
-    for (const MitsubaObject& child : adapter.children()) {
-        const MitsubaObject target = mitsuba_target(file, child);
-        if (target.element() == "texture" && target.type() == "bitmap") return target;
-    }
-    adapter.note(fmt::format("the texture of {} is no image, and is left out", in_quotes(adapter.type())));
-    return {};
-}
-
-/// Takes the effect of an adapter, as far as there is one.
-void read_adapter(const MitsubaFile& file, const MitsubaObject& adapter, SceneDescription& scene,
-                  MitsubaSurface& surface) {
-    const std::string type = adapter.type();
-    if (type == "normalmap") {
-        surface.image = texture_of(file, adapter);
-        if (!surface.image) return;
-        const auto normals = mitsuba_image(surface.image, TextureContent::Normal, scene);
-        surface.material.textures.normal = normals.value_or(kNoTexture);
-        if (normals) surface.material.normal_green = NormalGreen::Left;
-    } else if (type == "bumpmap") {
-        surface.image = texture_of(file, adapter);
-        if (surface.image)
-            surface.relief = {surface.image, static_cast<double>(adapter.number("scale").value_or(1.0f))};
-    } else if (type == "blendbsdf") {
-        adapter.note("of two surfaces that are blended the heavier one is shown");
-    } else if (type != "twosided") {
-        adapter.note(fmt::format("the effect of {} is left out: the surface inside of it is shown", in_quotes(type)));
-    }
-}
-
-/// The surface inside of an adapter: of two the heavier one.
-MitsubaObject inside_of(const MitsubaFile& file, const MitsubaObject& adapter) {
-    bool takes_second = adapter.type() == "blendbsdf" && adapter.number("weight").value_or(0.5f) > 0.5f;
-    for (const MitsubaObject& child : adapter.children()) {
-        const MitsubaObject target = mitsuba_target(file, child);
-        if (target.element() == "bsdf" && !std::exchange(takes_second, false)) return target;
-    }
-    return {};
-}
-
-}  // namespace
-
 MitsubaSurface mitsuba_surface(const MitsubaFile& file, const MitsubaObject& bsdf, SceneDescription& scene) {
-    MitsubaObject inner = bsdf;
-    MitsubaSurface adapted;
-    for (int depth = 0; is_adapter(mitsuba_name(inner.type())); ++depth) {
-        read_adapter(file, inner, scene, adapted);
-        const MitsubaObject next = inside_of(file, inner);
-        if (!next || depth > 16) {
-            inner.fail(
-                fmt::format("{}: expected a surface inside, got {}", inner.type(), next ? "a circle" : "none"));
-        }
-        inner = next;
+    const MitsubaAdapters adapters = read_mitsuba_adapters(file, bsdf, scene);
+    MitsubaSurface surface = SurfaceReader(file, adapters.inside, scene).run();
+    MaterialDescription& material = surface.material;
+    material.textures.normal = adapters.normals;
+    if (adapters.normals != kNoTexture) material.normal_green = NormalGreen::Left;
+    if (adapters.has_mask) {
+        material.opacity = adapters.opacity;
+        material.opacity_rule = OpacityRule::Blend;
+        material.textures.opacity = adapters.opacities;
     }
-    MitsubaSurface surface = SurfaceReader(file, inner, scene).run();
-    surface.material.textures.normal = adapted.material.textures.normal;
-    surface.material.normal_green = adapted.material.normal_green;
-    surface.relief = adapted.relief;
-    if (surface.image && adapted.image && mitsuba_to_uv(surface.image) != mitsuba_to_uv(adapted.image))
-        adapted.image.note("images of one surface with transformations of their own share that of its color");
-    if (!surface.image) surface.image = adapted.image;
+    surface.relief = adapters.relief;
+    if (surface.image && adapters.image && mitsuba_to_uv(surface.image) != mitsuba_to_uv(adapters.image))
+        adapters.image.note("images of one surface with transformations of their own share that of its color");
+    if (!surface.image) surface.image = adapters.image;
     return surface;
 }
 

@@ -12,6 +12,7 @@ struct MitsubaSurface {
     MaterialDescription material{};
     MitsubaObject image{};                  ///< the texture whose transformation is that of the surface; or nothing
     std::optional<MitsubaRelief> relief{};  ///< see add_mitsuba_relief()
+    bool shows_vertex_colors = false;       ///< a color is that of the vertices of its shapes
 };
 
 /// The surface of a `bsdf` element, with its textures added to the scene. Adapters such as `twosided` are those of the surface

@@ -29,6 +29,20 @@ TextureDescription checkerboard(const MitsubaObject& texture, const SceneDescrip
     return image;
 }
 
+/// Adds an image with the luminance of a bitmap in one channel. Without `raw` values are decoded from sRGB, as those of colors.
+std::uint32_t add_luminance(const MitsubaObject& bitmap, TextureContent content, float glm::vec4::*channel,
+                            SceneDescription& scene) {
+    const std::filesystem::path path = bitmap.file("filename");
+    const bool is_raw = bitmap.boolean("raw").value_or(false);
+    return add_texture_by(scene, path, content, repeats(bitmap), [&] {
+        TextureDescription image = read_texture(path, is_raw ? TextureContent::Normal : TextureContent::Color,
+                                                repeats(bitmap), scene.warnings);
+        image.content = content;
+        for (glm::vec4& texel : image.texels) texel.*channel = luminance(Vec3f(texel));
+        return image;
+    });
+}
+
 bool has_uvs(const TriangleDescription& t) {
     return glm::all(glm::notEqual(t.uv, glm::uvec3(TriangleDescription::kNoUv)));
 }
@@ -89,6 +103,13 @@ std::optional<std::uint32_t> mitsuba_image(const MitsubaObject& texture, Texture
     return image == kNoTexture ? std::nullopt : std::optional(image);
 }
 
+std::uint32_t mitsuba_opacities(const MitsubaObject& bitmap, SceneDescription& scene) {
+    const std::uint32_t image = add_luminance(bitmap, TextureContent::Opacity, &glm::vec4::w, scene);
+    if (image != kNoTexture)
+        for (glm::vec4& texel : scene.textures[image].texels) texel.w = std::min(texel.w, 1.0f);
+    return image;
+}
+
 glm::dmat4 mitsuba_to_uv(const MitsubaObject& texture) {
     const auto number = [&](const char* name, float standard) {
         return static_cast<double>(texture.number(name).value_or(standard));
@@ -122,18 +143,9 @@ void add_mitsuba_relief(SceneDescription& scene, std::uint32_t material, const M
     const MeanDensity density = mean_density(scene, material);
     if (!(density.mean.area > 0.0)) return;
     if (density.varies) relief.texture.note("bump maps are shown by the mean scale of their texture coordinates");
-    // Without `raw` values are decoded from sRGB, as those of colors.
-    const bool is_raw = relief.texture.boolean("raw").value_or(false);
-    const TextureContent content = is_raw ? TextureContent::Height : TextureContent::Color;
-    const std::filesystem::path path = relief.texture.file("filename");
-    const std::uint32_t image = add_texture_by(scene, path, TextureContent::Height, repeats(relief.texture), [&] {
-        return read_texture(path, content, repeats(relief.texture), scene.warnings);
-    });
+    const std::uint32_t image = add_luminance(relief.texture, TextureContent::Height, &glm::vec4::x, scene);
     if (image == kNoTexture) return;
     TextureDescription& heights = scene.textures[image];
-    heights.content = TextureContent::Height;
-    if (!is_raw)
-        for (glm::vec4& texel : heights.texels) texel.x = luminance(Vec3f(texel));
     turn_into_normals(heights, glm::vec2(relief.scale * density.mean.u * heights.width,
                                          relief.scale * density.mean.v * heights.height));
     scene.materials[material].textures.normal = image;

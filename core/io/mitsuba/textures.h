@@ -16,6 +16,9 @@ std::optional<std::uint32_t> mitsuba_image(const MitsubaObject& texture, Texture
                                            SceneDescription& scene);
 inline constexpr std::uint32_t kCheckerTexels = 128;
 
+/// Index of an image of opacities, the luminance of a bitmap, added to the scene; or kNoTexture. [Mitsuba 3, mask]
+std::uint32_t mitsuba_opacities(const MitsubaObject& bitmap, SceneDescription& scene);
+
 /// The transformation of texture coordinates of a `texture` element: `to_uv`, or the scales and offsets of 0.6.
 glm::dmat4 mitsuba_to_uv(const MitsubaObject& texture);
 

@@ -15,8 +15,8 @@ enum class Feature : std::uint32_t {
     Specular = 1u << 3,             ///< delta lobes: mirrors and clear glass
     Rough = 1u << 4,                ///< microfacet lobes: rough metals and rough glass
     Plastic = 1u << 5,              ///< Lambert under a dielectric coat
-    Textures = 1u << 6,             ///< images on surfaces
-    CutOuts = 1u << 7,              ///< opacity textures: holes in surfaces
+    Textures = 1u << 6,             ///< images on surfaces, colors of vertices
+    CutOuts = 1u << 7,              ///< surfaces with holes, and with partial opacity
     EnvironmentMap = 1u << 8,       ///< infinitely distant light that depends on the direction: an image, a sun
     ThinLens = 1u << 9,             ///< a camera with a finite aperture
     ManyLights = 1u << 10,          ///< light samples choose lights by a light tree instead of by power alone

@@ -1,6 +1,12 @@
-// Rays through holes of surfaces: the ray is continued behind each hole until it meets a solid surface.
+// Rays through holes of surfaces: the ray is continued behind each hole until it meets a solid surface. Surfaces that blend are holes at
+// random, with probability 1 - opacity: a decision for each ray and surface, as in GeometricPrimitive::Intersect() of pbrt-v4.   [Pharr,
+// Jakob and Humphreys 2023, section 7.1.1]
 #pragma once
 
+#include <bit>
+
+#include "core/kernel/base/hash.h"
+#include "core/kernel/base/rng.h"
 #include "core/kernel/geometry/intersector.h"
 #include "core/kernel/shading/textured.h"
 
@@ -9,10 +15,25 @@ namespace pl {
 /// Most holes in a row; the next one counts as solid. Bounds the time of files made of endless holes.
 inline constexpr int kMostHoles = 1024;
 
+/// A number in [0, 1), uniform over rays: a function of the bits of a ray and the number of a triangle alone, so that whoever traces the
+/// ray decides alike.
+PL_HD inline float number_of_hit(const Ray& ray, std::uint32_t primitive) {
+    std::uint32_t hash = hash_word(0u, primitive);
+    for (int axis = 0; axis < 3; ++axis) {
+        hash = hash_word(hash, std::bit_cast<std::uint32_t>(ray.origin[axis]));
+        hash = hash_word(hash, std::bit_cast<std::uint32_t>(ray.direction[axis]));
+    }
+    return to_unit_float(hash);
+}
+
+/// Whether a hit of the ray is to be ignored.
 template <FeatureSet F>
-PL_HD inline bool meets_hole(const SceneView& scene, const Hit& hit) {
-    if constexpr (F.has(Feature::CutOuts))
-        return hit.found() && is_hole_at<F>(scene, hit.primitive, hit_weights(hit));
+PL_HD inline bool meets_hole(const SceneView& scene, const Ray& ray, const Hit& hit) {
+    if constexpr (F.has(Feature::CutOuts)) {
+        if (!hit.found()) return false;
+        const float opacity = opacity_at<F>(scene, hit.primitive, hit_weights(hit));
+        return opacity < 1.0f && (opacity <= 0.0f || number_of_hit(ray, hit.primitive) >= opacity);
+    }
     return false;
 }
 
@@ -36,7 +57,7 @@ PL_HD inline Hit closest_solid_hit(const SceneView& scene, const I& intersector,
     if constexpr (F.has(Feature::CutOuts)) {
         Ray rest = ray;
         float passed = 0.0f;
-        for (int i = 0; i < kMostHoles && meets_hole<F>(scene, hit); ++i) {
+        for (int i = 0; i < kMostHoles && meets_hole<F>(scene, rest, hit); ++i) {
             rest = ray_behind(scene, rest, hit);
             passed += hit.t;
             hit = intersector.closest_hit(rest);
@@ -50,7 +71,7 @@ PL_HD inline Hit closest_solid_hit(const SceneView& scene, const I& intersector,
 template <FeatureSet F, Intersector I>
 PL_HD inline bool is_blocked(const SceneView& scene, const I& intersector, const Ray& ray) {
     if constexpr (F.has(Feature::CutOuts)) {
-        if (scene.textures.has_holes != 0) return closest_solid_hit<F>(scene, intersector, ray).found();
+        if (!scene.opacities.empty()) return closest_solid_hit<F>(scene, intersector, ray).found();
     }
     return intersector.occluded(ray);
 }

@@ -46,13 +46,15 @@ struct SceneView {
     Span<const TrianglePlane> planes;              ///< [triangle]
     Span<const Vec3f> normals;                     ///< unit or 0; empty unless the scene has smooth normals
     Span<const TriangleNormals> triangle_normals;  ///< [triangle], or empty
+    Span<const Vec3f> vertex_colors;               ///< [position], each channel in [0, 1]; empty if all are white
     Span<const Material> materials;
     Span<const SurfaceLobes> lobes;        ///< [material]; empty if all are diffuse
     Span<const float> directional_albedo;  ///< tables that SurfaceLobes::table indexes
-    Span<const Vec3f> absorption;          ///< [material], per length, of the inside of glass; empty if nothing absorbs
+    Span<const Vec3f> absorption;  ///< [material], per length, of the inside of glass; empty if nothing absorbs
     Textures textures;
-    Span<const Light> lights;  ///< sorted by primitive
-    LightTree light_tree;      ///< over `lights`; empty if they are few
+    Span<const MaterialOpacity> opacities;  ///< [material]; empty if all are opaque
+    Span<const Light> lights;               ///< sorted by primitive
+    LightTree light_tree;                   ///< over `lights`; empty if they are few
     BvhView bvh;
     /// Sum of area x luminance of the emission, divided by the probability that a light sample chooses `lights`.
     float light_power = 0.0f;

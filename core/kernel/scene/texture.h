@@ -31,8 +31,15 @@ struct MaterialImages {
     std::uint32_t albedo = kNoImage;
     std::uint32_t roughness = kNoImage;
     std::uint32_t emission = kNoImage;
-    std::uint32_t opacity = kNoImage;
     Vec3f emission_scale{1.0f};  ///< 1 / mean of the image, because Material::emission includes the mean
+};
+
+/// Opacity of a material: `factor`, times the alpha of an image.
+struct MaterialOpacity {
+    std::uint32_t image = kNoImage;  ///< index into Textures::images, or kNoImage
+    float factor = 1.0f;             ///< in [0, 1]
+    std::uint32_t blends =
+        0;  ///< 1: rays meet the surface with this probability; 0: where it is at least kLeastOpacity
 };
 
 /// Of a material: an image of normals, see normal_map.h.
@@ -56,7 +63,6 @@ struct Textures {
     Span<const Texel> texels;
     Span<const MaterialImages> of_material;  ///< [material]
     Span<const NormalMap> normal_maps;       ///< [material]; empty unless a material in use has one
-    std::uint32_t has_holes = 0;             ///< 1: some material has an opacity image
 };
 
 /// Texture coordinates at barycentric weights of a triangle.
@@ -83,13 +89,17 @@ PL_HD inline Vec4f sample_image(const Textures& textures, std::uint32_t index, V
     return bilinear(x, y, at(x.low, y.low), at(x.high, y.low), at(x.low, y.high), at(x.high, y.high));
 }
 
-/// A surface has a hole where its opacity is below this threshold (alpha test).
+/// A surface that does not blend has a hole where its opacity is below this threshold (alpha test).
 inline constexpr float kLeastOpacity = 0.5f;
 
-/// Whether the triangle of this material has a hole at barycentric weights `b`.
-PL_HD inline bool is_hole(const Textures& textures, std::uint32_t material, std::uint32_t primitive, Vec3f b) {
-    const std::uint32_t opacity = textures.of_material[material].opacity;
-    return opacity != kNoImage && sample_image(textures, opacity, uv_at(textures, primitive, b)).w < kLeastOpacity;
+/// Opacity of a triangle at barycentric weights `b`, in [0, 1]: 0 in a hole, 1 where the surface is solid.
+PL_HD inline float opacity_of(const Textures& textures, const MaterialOpacity& material, std::uint32_t primitive,
+                              Vec3f b) {
+    float opacity = material.factor;
+    if (material.image != kNoImage)
+        opacity *= sample_image(textures, material.image, uv_at(textures, primitive, b)).w;
+    if (material.blends != 0) return opacity;
+    return opacity < kLeastOpacity ? 0.0f : 1.0f;
 }
 
 }  // namespace pl

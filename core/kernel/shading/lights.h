@@ -177,10 +177,16 @@ struct DirectLight {
     std::uint32_t cluster = kNoCluster;  ///< of the light; none without a light tree, and of far lights
 };
 
-/// Emitted radiance of a point on a light with barycentric weights `b`; 0 in a hole.
+/// Emitted radiance of a point on a light with barycentric weights `b`, times its opacity: the mean over paths that would meet it or not.
 template <FeatureSet F>
 PL_HD inline Vec3f light_emitted(const SceneView& scene, const SurfacePoint& light, Vec3f b) {
-    return is_hole_at<F>(scene, light.primitive, b) ? Vec3f{0.0f} : emitted_at<F>(scene, light, b);
+    if constexpr (F.has(Feature::CutOuts)) {
+        if (!scene.opacities.empty()) {
+            const float opacity = opacity_at<F>(scene, light.primitive, b);
+            return opacity > 0.0f ? opacity * emitted_at<F>(scene, light, b) : Vec3f{0.0f};
+        }
+    }
+    return emitted_at<F>(scene, light, b);
 }
 
 /// Density per steradian of light sampling for a direction of the far lights.

@@ -11,19 +11,28 @@ inline constexpr float kLeastTexturedRoughness = 0.03f;
 
 PL_HD inline Vec3f color_of(Vec4f texel) { return {texel.x, texel.y, texel.z}; }
 
-/// Value of the albedo texture, at most 1 per channel; white without one.
+/// Colors of a triangle's vertices, interpolated.
+PL_HD inline Vec3f vertex_color_at(const SceneView& scene, std::uint32_t primitive, Vec3f b) {
+    const Triangle triangle = scene.triangles[primitive];
+    return b.x * scene.vertex_colors[triangle.v0] + b.y * scene.vertex_colors[triangle.v1] +
+           b.z * scene.vertex_colors[triangle.v2];
+}
+
+/// Value of the albedo texture times the colors of the vertices, at most 1 per channel; white without either.
 template <FeatureSet F>
 PL_HD inline Vec3f tint_at(const SceneView& scene, const SurfacePoint& surface, Vec3f b) {
+    Vec3f tint{1.0f};
     if constexpr (F.has(Feature::Textures)) {
         if (!scene.textures.of_material.empty()) {
             const std::uint32_t image = scene.textures.of_material[surface.material].albedo;
             if (image != kNoImage) {
                 const Vec2f uv = uv_at(scene.textures, surface.primitive, b);
-                return glm::min(color_of(sample_image(scene.textures, image, uv)), Vec3f{1.0f});
+                tint = glm::min(color_of(sample_image(scene.textures, image, uv)), Vec3f{1.0f});
             }
         }
+        if (!scene.vertex_colors.empty()) tint *= glm::min(vertex_color_at(scene, surface.primitive, b), Vec3f{1.0f});
     }
-    return Vec3f{1.0f};
+    return tint;
 }
 
 /// Albedo of the diffuse, or guided, lobe.
@@ -69,14 +78,14 @@ PL_HD inline Vec3f emitted_at(const SceneView& scene, const SurfacePoint& surfac
     return emitted;
 }
 
-/// Whether the triangle has a hole at `b`.
+/// Probability that a ray meets the triangle at `b`.
 template <FeatureSet F>
-PL_HD inline bool is_hole_at(const SceneView& scene, std::uint32_t primitive, Vec3f b) {
+PL_HD inline float opacity_at(const SceneView& scene, std::uint32_t primitive, Vec3f b) {
     if constexpr (F.has(Feature::CutOuts)) {
-        if (scene.textures.has_holes != 0)
-            return is_hole(scene.textures, scene.triangles[primitive].material, primitive, b);
+        if (!scene.opacities.empty())
+            return opacity_of(scene.textures, scene.opacities[scene.triangles[primitive].material], primitive, b);
     }
-    return false;
+    return 1.0f;
 }
 
 }  // namespace pl

@@ -67,7 +67,9 @@ TEST_CASE("A file of materials replaces the values of the scene to the bit, and 
                            .ior = 1.7f,
                            .specular = {0.9f, 0.8f, 0.7f},
                            .transmission = {0.6f, 0.5f, 0.4f},
-                           .absorption = {0.1f, 0.0f, 7.0f}};
+                           .absorption = {0.1f, 0.0f, 7.0f},
+                           .opacity = 0.3f,
+                           .opacity_rule = OpacityRule::Blend};
     const auto file = folder.path() / "edits.json";
     write_material_file(file, edited.materials);
     const SceneDescription again = load_scene(obj, "", {.materials = file});

@@ -165,11 +165,24 @@ TEST_CASE("Numbers and colors of surfaces") {
     CHECK(material("Kd 0.1\nPr 0.5\nNi 1\nillum 7\n").roughness == 0.0f);
 }
 
-TEST_CASE("Transparency that cannot be shown is told") {
-    const SceneDescription loaded = load("newmtl a\nKd 0.5\nd 0.5\n");
-    REQUIRE(loaded.warnings.size() == 1);
-    CHECK_THAT(loaded.warnings[0], contains("m.mtl:1: material 'a' is partly transparent"));
-    CHECK(load("newmtl a\nKd 0.5\nd 0.5\nNi 1.5\n").warnings.empty());
+TEST_CASE("Transparency without refraction is a partial opacity") {
+    const MaterialDescription veil = material("Kd 0.5\nd 0.25\n");
+    CHECK(veil.opacity == 0.25f);
+    CHECK(veil.opacity_rule == OpacityRule::Blend);
+    CHECK(material("Kd 0.5\nTr 0.25\n").opacity == 0.75f);
+    CHECK(material("Kd 0.5\nd 1\n").opacity_rule == OpacityRule::Threshold);
+    for (const char* glass : {"Kd 0.5\nd 0.5\nNi 1.5\n", "Kd 0.5\nd 0.5\nTf 1 1 1\n", "Kd 0.5\nd 0\nillum 7\n"}) {
+        INFO(glass);
+        CHECK(material(glass).kind == SurfaceKind::Dielectric);
+        CHECK_FALSE(material(glass).may_have_holes());
+    }
+    CHECK(load("newmtl a\nKd 0.5\nd 0.5\n").warnings.empty());
+    const SceneDescription invisible = load("newmtl a\nKd 0.5\nd 0\n");
+    REQUIRE(invisible.warnings.size() == 1);
+    CHECK_THAT(invisible.warnings[0], contains("m.mtl:1: material 'a' is invisible"));
+    // Implausible values are left out.
+    for (const char* wrong : {"d -0.5\n", "d 1.5\n", "d half\n", "Tr 2\n"})
+        CHECK(material(std::string("Kd 0.5\n") + wrong).opacity == 1.0f);
 }
 
 TEST_CASE("Images of a material: loaded once, missing ones shown as checkers") {
@@ -186,6 +199,9 @@ TEST_CASE("Images of a material: loaded once, missing ones shown as checkers") {
     CHECK(m[0].albedo == glm::vec3(1.0f));
     CHECK(m[0].textures.albedo == m[1].textures.albedo);
     CHECK(m[0].textures.opacity != m[0].textures.albedo);
+    CHECK(m[0].opacity == 1.0f);
+    CHECK(m[0].opacity_rule == OpacityRule::Blend);
+    CHECK(m[1].opacity_rule == OpacityRule::Threshold);
     CHECK(m[1].emission == glm::vec3(1.0f));
     CHECK_FALSE(scene.textures[m[1].textures.emission].repeats);
     CHECK(scene.textures[m[2].textures.albedo].texels.size() == 4);

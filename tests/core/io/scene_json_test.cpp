@@ -249,3 +249,23 @@ TEST_CASE("Textures that a scene file names, and triangles without texture point
     REQUIRE(scene.warnings.size() == 1);
     CHECK_THAT(scene.warnings[0], contains("1 triangles have a texture but no texture coordinates"));
 }
+
+TEST_CASE("The opacity of a material blends if it is partial, unless the file says otherwise") {
+    const auto wall = [](const std::string& members) {
+        return load(", \"materials\": {\"wall\": {" + members + "}}").materials[0];
+    };
+    CHECK(wall("").opacity == 1.0f);
+    CHECK(wall("").opacity_rule == OpacityRule::Threshold);
+    CHECK(wall("\"opacity\": 0.25").opacity == 0.25f);
+    CHECK(wall("\"opacity\": 0.25").opacity_rule == OpacityRule::Blend);
+    CHECK(wall("\"opacity\": 1").opacity_rule == OpacityRule::Threshold);
+    CHECK(wall("\"opacity\": 0.25, \"opacity_rule\": \"threshold\"").opacity_rule == OpacityRule::Threshold);
+    CHECK(wall("\"opacity_rule\": \"blend\"").opacity_rule == OpacityRule::Blend);
+    const auto refused_wall = [](const std::string& members) {
+        return refused(", \"materials\": {\"wall\": {" + members + "}}");
+    };
+    CHECK_THAT(refused_wall("\"opacity\": 1.5"), contains("opacity") && contains("within [0, 1], got 1.5"));
+    CHECK_THAT(refused_wall("\"opacity\": -0.5"), contains("within [0, 1], got -0.5"));
+    CHECK_THAT(refused_wall("\"opacity\": \"half\""), contains("opacity"));
+    CHECK_THAT(refused_wall("\"opacity_rule\": \"half\""), contains("expected one of threshold, blend, got 'half'"));
+}

@@ -4,13 +4,17 @@
 #include <cmath>
 
 #include "core/base/error.h"
+#include "core/io/image.h"
 #include "core/io/load_scene.h"
 #include "core/io/write_mesh.h"
 #include "core/scene/scene_hash.h"
 #include "tests/support/catch.hpp"
+#include "tests/support/files/input_error.h"
 #include "tests/support/files/temporary_folder.h"
 
 using namespace pl;
+using pl::test::contains;
+using pl::test::input_error;
 using pl::test::TemporaryFolder;
 
 namespace {
@@ -126,6 +130,48 @@ TEST_CASE("write_scene: each use of an image has its channels, its bits and its 
     CHECK(read.textures[use.roughness].repeats);
     CHECK(read.textures[use.roughness].source.extension() == ".png");
     CHECK(read.textures[use.emission].source.extension() == ".exr");
+}
+
+TEST_CASE("write_scene: vertices keep the bits of their colors, and an image without enough of them is refused") {
+    SceneDescription scene = triangle_of({.name = "m", .albedo = glm::vec3(0.8f)});
+    scene.vertex_colors = {{0.1f, 1.0f / 3.0f, 1.0f}, {0, 1e-7f, 0.5f}, {1, 1, 1}};
+    const SceneDescription read = rewritten(scene);
+    CHECK(read.vertex_colors == scene.vertex_colors);
+    CHECK(scene_hash(read) == scene_hash(scene));
+    scene.vertex_colors.clear();
+    CHECK(scene_hash(read) != scene_hash(scene));
+
+    const TemporaryFolder folder;
+    folder.write("a.obj", "v -1 0 0\nv 1 0 0\nv 0 2 0\nf 1 2 3\n");
+    const auto with = [&](const std::string& image) {
+        return folder
+            .write("s.json", R"({"schema": "pathlight.scene/1", "obj": "a.obj", "vertex_colors": ")" + image + "\"}")
+            .string();
+    };
+    write_pfm(folder.path() / "two.pfm", {.width = 2, .height = 1, .pixels = {glm::vec3(1), glm::vec3(0)}});
+    CHECK_THAT(input_error([&] { load_scene(with("two.pfm"), ""); }),
+               contains("expected an image with a texel for each of 3 vertices, got 2"));
+    CHECK_THAT(input_error([&] { load_scene(with("../two.pfm"), ""); }), contains("in the folder of the scene"));
+    CHECK_THAT(input_error([&] { load_scene(with("none.pfm"), ""); }), contains("none.pfm"));
+    write_pfm(folder.path() / "bright.pfm", {.width = 2, .height = 2, .pixels = std::vector(4, glm::vec3(7.0f))});
+    CHECK_THAT(input_error([&] { load_scene(with("bright.pfm"), ""); }), contains("is not within [0, 1] (3 such)"));
+}
+
+TEST_CASE("write_scene: opacities keep their number, image and rule") {
+    for (const OpacityRule rule : {OpacityRule::Threshold, OpacityRule::Blend}) {
+        MaterialDescription material{.name = "m", .albedo = glm::vec3(0.8f)};
+        material.textures.opacity = 0;
+        material.opacity = 0.3f;
+        material.opacity_rule = rule;
+        SceneDescription scene = triangle_of(material);
+        scene.textures = {
+            texture_of({{1, 1, 1, 128.0f / 255.0f}, {1, 1, 1, 51.0f / 255.0f}}, TextureContent::Opacity, true)};
+        const SceneDescription read = rewritten(scene);
+        REQUIRE(read.materials[0].textures.opacity == 0);
+        CHECK(read.textures[0].texels[1].w == scene.textures[0].texels[1].w);
+        CHECK(read.materials[0].opacity == 0.3f);
+        CHECK(read.materials[0].opacity_rule == rule);
+    }
 }
 
 TEST_CASE("write_scene: normal maps keep all channels and their strength") {

@@ -28,6 +28,11 @@ SceneDescription random_scene(Uniforms& random) {
     }
     for (std::uint32_t i = 0; i < 4; ++i)
         add_triangle(scene, random.cube(-1, 1), random.cube(-1, 1), random.cube(-1, 1), random.below(materials));
+    if (random.below(4) == 0) {
+        MaterialDescription& material = scene.materials[scene.triangles.back().material];
+        material.opacity = 0.9f;
+        material.opacity_rule = OpacityRule::Blend;
+    }
     if (random.below(3) == 0) scene.environment = Vec3f{0.5f};
     if (random.below(3) == 0) {
         scene.normals = {Vec3f{0, 1, 0}};
@@ -40,6 +45,7 @@ SceneDescription random_scene(Uniforms& random) {
 FeatureSet needed_by_look(const SceneDescription& scene) {
     FeatureSet set;
     for (const MaterialDescription& m : scene.materials) {
+        if (m.opacity < 1.0f) set = set.with(Feature::CutOuts);
         if (m.kind == SurfaceKind::Diffuse) continue;
         set = set.with(m.roughness > 0.0f ? Feature::Rough : Feature::Specular);
         if (m.kind == SurfaceKind::Plastic) set = set.with(Feature::Plastic);
@@ -66,7 +72,8 @@ TEST_CASE("The scan of a scene finds the effects of all its materials") {
     }
     // All but light samples, images and the lens, which the random scenes have none of.
     CHECK(seen == features(Feature::SmoothNormals, Feature::Environment, Feature::Specular, Feature::Rough,
-                           Feature::Plastic, Feature::EnvironmentMap, Feature::Absorption, Feature::ThinPanes)
+                           Feature::Plastic, Feature::CutOuts, Feature::EnvironmentMap, Feature::Absorption,
+                           Feature::ThinPanes)
                       .bits);
 }
 
@@ -83,6 +90,8 @@ TEST_CASE("Effects that a scene does not need take no memory") {
     CHECK(packed.delta_lights.capacity() == 0);
     CHECK(packed.images.capacity() == 0);
     CHECK(packed.material_images.capacity() == 0);
+    CHECK(packed.opacities.capacity() == 0);
+    CHECK(packed.vertex_colors.capacity() == 0);
     CHECK(packed.map_texels.capacity() == 0);
     CHECK(needed_effects(packed) == FeatureSet{});
 }

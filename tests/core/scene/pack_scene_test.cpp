@@ -273,6 +273,44 @@ TEST_CASE("An image without holes is no cut-out") {
     CHECK(needed_effects(packed) == features(Feature::Textures, Feature::CutOuts));
 }
 
+TEST_CASE("Colors of vertices are textures, unless those in use are white") {
+    SceneDescription scene;
+    scene.materials = {gray()};
+    add_triangle(scene, Vec3f{0, 0, 0}, Vec3f{1, 0, 0}, Vec3f{0, 1, 0});
+    scene.positions.push_back({7, 7, 7});
+    scene.vertex_colors = {{1, 1, 1}, {1, 1, 1}, {1, 1, 1}, {0, 0, 0}};
+    CHECK(pack_scene(scene).vertex_colors.empty());
+    CHECK(needed_effects(pack_scene(scene)) == FeatureSet{});
+    scene.vertex_colors[2].y = 0.5f;
+    CHECK(pack_scene(scene).vertex_colors == scene.vertex_colors);
+    CHECK(needed_effects(pack_scene(scene)) == features(Feature::Textures));
+}
+
+TEST_CASE("An opacity counts by its rule, with an image and without, and an opaque surface is no cut-out") {
+    struct Case {
+        float opacity, alpha;
+        OpacityRule rule;
+        bool has_holes;
+    };
+    for (const Case& c :
+         {Case{1.0f, 1.0f, OpacityRule::Blend, false}, Case{1.0f, 0.99f, OpacityRule::Blend, true},
+          Case{0.99f, 1.0f, OpacityRule::Blend, true}, Case{0.0f, 1.0f, OpacityRule::Blend, true},
+          Case{0.7f, 0.8f, OpacityRule::Threshold, false}, Case{0.7f, 0.6f, OpacityRule::Threshold, true},
+          Case{0.4f, 1.0f, OpacityRule::Threshold, true}}) {
+        SceneDescription scene = textured(&TextureUse::opacity, glm::vec4(c.alpha), glm::vec4(1.0f));
+        scene.materials[0].opacity = c.opacity;
+        scene.materials[0].opacity_rule = c.rule;
+        const HostScene packed = pack_scene(scene);
+        INFO(c.opacity << " times " << c.alpha << ", rule " << static_cast<int>(c.rule));
+        CHECK(needed_effects(packed).has(Feature::CutOuts) == c.has_holes);
+        CHECK(packed.opacities.empty() == !c.has_holes);
+        CHECK(packed.images.empty() == !(c.has_holes && c.alpha < 1.0f));
+        scene.materials[0].textures.opacity = kNoTexture;
+        const float least = c.rule == OpacityRule::Blend ? 1.0f : 0.5f;
+        CHECK(pack_scene(scene).opacities.empty() == (c.opacity >= least));
+    }
+}
+
 TEST_CASE("Images that change nothing are not packed") {
     SceneDescription scene = textured(&TextureUse::roughness, glm::vec4(0.5f), glm::vec4(1.0f));
     CHECK(pack_scene(scene).images.empty());  // diffuse

@@ -106,8 +106,14 @@ inline SceneDescription every_effect() {
     scene.materials[kWallZ1].kind = SurfaceKind::Conductor;
     scene.materials[kWallZ1].specular = glm::vec3(0.9f, 0.8f, 0.7f);
     scene = with_lattices(std::move(scene), glm::vec3(0.0f), glm::vec3(1.0f));
+    scene.materials.push_back(scene.materials.back());
+    scene.materials.back().opacity = 0.6f;
+    scene.materials.back().opacity_rule = OpacityRule::Blend;
+    scene.triangles.back().material = static_cast<std::uint32_t>(scene.materials.size() - 1);
     scene.normals = {Vec3f{0.1f, 1.0f, 0.05f}, Vec3f{-0.1f, 0.9f, 0.2f}};
     scene.triangles[2 * kFloor].normal = {0, 1, 0};
+    for (std::size_t i = 0; i < scene.positions.size(); ++i)
+        scene.vertex_colors.emplace_back(random.between(0.5f, 1.0f), random.between(0.5f, 1.0f), 1.0f);
     scene.environment = glm::vec3(0.1f, 0.2f, 0.3f);
     scene.environment_map = linear_sky(1.0f, 0.5f);
     scene.environment_map.rotation_deg = 40.0f;

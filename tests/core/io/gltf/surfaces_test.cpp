@@ -288,40 +288,80 @@ TEST_CASE("gltf images: transformations, sets and wrapping of coordinates") {
     CHECK(is_told(other, "mirrored repetition"));
 }
 
-TEST_CASE("gltf images: holes by the cutoff of the mask, partial opacity as holes") {
+TEST_CASE("gltf images: holes by the cutoff of the mask, and partial opacity") {
     const Json info = {{"index", 0}};
     Json material = metal_rough({{"baseColorTexture", info}});
     const std::array<std::uint8_t, 8> rgba{255, 255, 255, 51, 255, 255, 255, 255};
     material["alphaMode"] = "MASK";
+    material["pbrMetallicRoughness"]["baseColorFactor"] = {1, 1, 1, 1};
     SceneDescription scene = load(with_image(material, rgba));
     CHECK(scene.materials[0].textures.opacity == scene.materials[0].textures.albedo);
     CHECK(scene.textures[0].texels[0].w == Approx(0.2));
+    CHECK(scene.materials[0].opacity == 1.0f);
+    CHECK(scene.materials[0].opacity_rule == OpacityRule::Threshold);
     material["alphaCutoff"] = 0.1;
     scene = load(with_image(material, rgba));
     CHECK(scene.textures[0].texels[0].w == 1.0f);  // 0.2 is above the cutoff
     material["alphaMode"] = "BLEND";
+    material["pbrMetallicRoughness"]["baseColorFactor"][3] = 0.5;
     scene = load(with_image(material, rgba));
     CHECK(scene.textures[0].texels[0].w == Approx(0.2));
-    CHECK(is_told(scene, "partial opacity is shown as holes"));
+    CHECK(scene.materials[0].textures.opacity == scene.materials[0].textures.albedo);
+    CHECK(scene.materials[0].opacity == 0.5f);
+    CHECK(scene.materials[0].opacity_rule == OpacityRule::Blend);
     material["alphaMode"] = "HALF";
     CHECK_THAT(test::input_error([&] { load(material); }), contains("expected OPAQUE, MASK or BLEND, got 'HALF'"));
 }
 
-TEST_CASE("gltf materials: an even opacity is a pane, opaque, or nothing at all") {
+TEST_CASE("gltf materials: an even opacity blends, or is that of nothing at all") {
     Json material = metal_rough({{"baseColorFactor", {1, 0, 0, 0.25}}, {"metallicFactor", 0}});
     material["alphaMode"] = "BLEND";
-    const MaterialDescription pane = surface(material);
-    CHECK(pane.kind == SurfaceKind::Dielectric);
-    CHECK(pane.ior == 1.0f);
-    CHECK(pane.transmission == glm::vec3(1.0f, 0.75f, 0.75f));
-    material["pbrMetallicRoughness"]["baseColorFactor"][3] = 0.75;
-    CHECK(surface(material).kind == SurfaceKind::Plastic);
+    const MaterialDescription veil = surface(material);
+    CHECK(veil.kind == SurfaceKind::Plastic);
+    CHECK(veil.albedo == glm::vec3(1, 0, 0));
+    CHECK(veil.opacity == 0.25f);
+    CHECK(veil.opacity_rule == OpacityRule::Blend);
+    material["alphaMode"] = "OPAQUE";
+    CHECK_FALSE(surface(material).may_have_holes());
     GltfMaker hidden;
     material["alphaMode"] = "MASK";
-    material["pbrMetallicRoughness"]["baseColorFactor"][3] = 0.25;
+    hidden.triangle(material);
+    material["alphaMode"] = "BLEND";
+    material["pbrMetallicRoughness"]["baseColorFactor"][3] = 0;
     hidden.triangle(material);
     hidden.triangle(metal_rough({}));
     CHECK(load(hidden).triangles.size() == 1);
+}
+
+TEST_CASE("gltf: colors of vertices, as floats and as normalized integers, multiply the base color") {
+    const auto colored = [](auto values, int component, const std::string& type, std::size_t count = 3) {
+        GltfMaker file;
+        file.triangle();
+        file.triangle(metal_rough({{"metallicFactor", 0}}));
+        const int accessor = file.numbers(values, component, type, count);
+        file.root["accessors"][accessor]["normalized"] = component != 5126;
+        file.root["meshes"][1]["primitives"][0]["attributes"]["COLOR_0"] = accessor;
+        return file;
+    };
+    using Bytes = std::vector<std::uint8_t>;
+    using Shorts = std::vector<std::uint16_t>;
+    const SceneDescription bytes =
+        load(colored(Bytes{255, 51, 0, 255, 0, 0, 255, 255, 102, 0, 0, 255}, 5121, "VEC4"));
+    const std::vector<glm::vec3> expected{{1, 1, 1}, {1, 1, 1}, {1, 1, 1}, {1, 0.2f, 0}, {0, 0, 1}, {0.4f, 0, 0}};
+    CHECK(bytes.vertex_colors == expected);
+    CHECK(bytes.materials[bytes.triangles[1].material].albedo == glm::vec3(1.0f));
+    CHECK_FALSE(is_told(bytes, "of vertices"));
+    const SceneDescription shorts = load(colored(Shorts{65535, 13107, 0, 0, 0, 65535, 26214, 0, 0, 0}, 5123, "VEC3"));
+    CHECK(shorts.vertex_colors == expected);
+    const SceneDescription floats = load(colored(std::vector<float>{1, 0.2f, -1, 0, 0, 3, 0.4f, 0, 0}, 5126, "VEC3"));
+    CHECK(floats.vertex_colors == expected);
+    CHECK(is_told(floats, "colors of vertices outside of [0, 1] are moved into it"));
+    CHECK(is_told(load(colored(Bytes{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12}, 5121, "VEC4")),
+                  "opacities of vertices are left out"));
+    CHECK(load(colored(Bytes(12, 255), 5121, "VEC4")).vertex_colors.empty());
+    CHECK_THAT(test::input_error([&] { load(colored(Bytes(12, 9), 5121, "VEC4", 2)); }),
+               contains("expected one element for each of the 3 vertices, got 2"));
+    CHECK_THROWS_AS(load(colored(std::vector<float>(6), 5126, "VEC2")), Error);
 }
 
 TEST_CASE("gltf images: one that cannot be read is shown as checkers, one outside of the folder refused", "[hard]") {

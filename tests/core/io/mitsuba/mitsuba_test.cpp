@@ -154,6 +154,43 @@ TEST_CASE("mitsuba: OBJ and PLY files, text and binary, smooth unless they say o
     CHECK_THAT(input_error([&] { shape("ply", "giant.ply"); }), contains("giant.ply: byte"));
 }
 
+TEST_CASE("mitsuba: colors of a PLY file's vertices are shown by surfaces that ask for them, in instances too") {
+    const TemporaryFolder folder;
+    const auto header = [](const std::string& type) {
+        return "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+               "property " +
+               type + " red\nproperty " + type + " green\nproperty " + type +
+               " blue\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n";
+    };
+    folder.write("bytes.ply", header("uchar") + "0 0 0 255 51 0\n1 0 0 0 0 255\n1 1 0 102 0 0\n3 0 1 2\n");
+    folder.write("floats.ply", header("float") + "0 0 0 1 0.25 0\n1 0 0 0 -1 0\n1 1 0 0 0 2\n3 0 1 2\n");
+    const std::string painted = "<bsdf type=\"diffuse\"><texture type=\"mesh_attribute\" name=\"reflectance\">"
+                                "<string name=\"name\" value=\"vertex_color\"/></texture></bsdf>";
+    const auto shape = [](const std::string& name, const std::string& bsdf) {
+        return "<shape type=\"ply\"><string name=\"filename\" value=\"" + name + "\"/>" + bsdf + "</shape>";
+    };
+    const SceneDescription plain = load(folder, shape("bytes.ply", "<bsdf type=\"diffuse\"/>"));
+    CHECK(plain.vertex_colors.empty());
+    const SceneDescription scene = load(folder, kSquare + shape("bytes.ply", painted) + kSquare);
+    REQUIRE(scene.vertex_colors.size() == scene.positions.size());
+    CHECK(scene.materials[scene.triangles[2].material].albedo == glm::vec3(1.0f));
+    const glm::uvec3 corners = scene.triangles[2].vertex;
+    CHECK(scene.vertex_colors[corners.x] == glm::vec3(1.0f, 0.2f, 0.0f));
+    CHECK(scene.vertex_colors[corners.y] == glm::vec3(0.0f, 0.0f, 1.0f));
+    CHECK(scene.vertex_colors[corners.z] == glm::vec3(0.4f, 0.0f, 0.0f));
+    for (const std::size_t other : {0, 3})
+        CHECK(scene.vertex_colors[scene.triangles[other].vertex.x] == glm::vec3(1.0f));
+    const SceneDescription copies =
+        load(folder, "<shape type=\"shapegroup\" id=\"g\">" + shape("bytes.ply", painted) +
+                         "</shape><shape type=\"instance\"><ref id=\"g\"/></shape>" + kSquare);
+    REQUIRE(copies.vertex_colors.size() == copies.positions.size());
+    CHECK(copies.vertex_colors[copies.triangles[0].vertex.x] == glm::vec3(1.0f, 0.2f, 0.0f));
+    const SceneDescription wide = load(folder, shape("floats.ply", painted));
+    CHECK(wide.vertex_colors == std::vector<glm::vec3>{{1, 0.25f, 0}, {0, 0, 0}, {0, 0, 1}});
+    CHECK(is_told(wide, "colors of vertices outside of [0, 1]"));
+    CHECK(is_told(load("<shape type=\"rectangle\">" + painted + "</shape>"), "white on shapes without such"));
+}
+
 TEST_CASE("mitsuba: surfaces, by reference, inside of adapters, and with the values of the plugins") {
     const SceneDescription scene = load("<bsdf type=\"twosided\" id=\"wall\"><bsdf type=\"diffuse\"><rgb "
                                         "name=\"reflectance\" value=\"0.1, 0.2, 0.3\"/>"
@@ -247,6 +284,45 @@ TEST_CASE("mitsuba: a normal map is that of the surface inside") {
     REQUIRE(scene.textures.size() == 1);
     CHECK(scene.textures[0].texels[0].y == Approx(0.2));
     CHECK_FALSE(is_told(scene, "normalmap"));
+}
+
+TEST_CASE("mitsuba: masks are the opacity of the surface inside, and multiply") {
+    const auto mask = [](const std::string& opacity, const std::string& inside = "<bsdf type=\"diffuse\"/>") {
+        return "<bsdf type=\"mask\">" + opacity + inside + "</bsdf>";
+    };
+    const std::string half = "<float name=\"opacity\" value=\"0.5\"/>";
+    const MaterialDescription veil = surface(mask("<float name=\"opacity\" value=\"0.75\"/>"));
+    CHECK(veil.opacity == 0.75f);
+    CHECK(veil.opacity_rule == OpacityRule::Blend);
+    CHECK(veil.albedo == glm::vec3(0.5f));
+    CHECK(surface(mask("")).opacity == 0.5f);
+    CHECK(surface(mask("<rgb name=\"opacity\" value=\"0.25, 0.25, 0.25\"/>")).opacity == Approx(0.25));
+    CHECK(surface(mask(half, "<bsdf type=\"twosided\">" + mask(half) + "</bsdf>")).opacity == 0.25f);
+    CHECK(surface(mask("<float name=\"opacity\" value=\"7\"/>")).opacity == 1.0f);
+    CHECK_FALSE(surface("<bsdf type=\"diffuse\"/>").may_have_holes());
+
+    const TemporaryFolder folder;
+    write_png8(folder.path() / "a.png", {.width = 2, .height = 1, .rgb = {128, 128, 128, 0, 255, 0}});
+    const auto image = [](const std::string& more) {
+        return "<texture name=\"opacity\" type=\"bitmap\"><string name=\"filename\" value=\"a.png\"/>" + more +
+               "</texture>";
+    };
+    const auto seen = [&](const std::string& bsdf) {
+        return load(folder, "<shape type=\"rectangle\">" + bsdf + "</shape>");
+    };
+    const SceneDescription decoded = seen(mask(image("")));
+    REQUIRE(decoded.materials[0].textures.opacity == 0);
+    CHECK(decoded.materials[0].opacity == 1.0f);
+    CHECK(decoded.textures[0].texels[0].w == Approx(0.2159).epsilon(1e-3));
+    CHECK(decoded.textures[0].texels[1].w == Approx(0.7152).epsilon(1e-3));
+    const SceneDescription raw = seen(mask(image("<boolean name=\"raw\" value=\"true\"/>")));
+    CHECK(raw.textures[0].texels[0].w == Approx(128.0 / 255.0));
+    CHECK(is_told(seen(mask(image(""), mask(image("")))), "further ones inside of others, are left out"));
+    CHECK(is_told(seen(mask("<texture name=\"opacity\" type=\"checkerboard\"/>")), "opacities that are no image"));
+    CHECK(is_told(load("<shape type=\"rectangle\">" + mask(half) + "<emitter type=\"area\"/></shape>"),
+                  "the light of shapes with a mask is masked, too"));
+    CHECK_THAT(refusal("<shape type=\"rectangle\"><bsdf type=\"mask\"/></shape>"),
+               contains("mask: expected a surface inside, got none"));
 }
 
 TEST_CASE("mitsuba: area and constant emitters, others are told") {

@@ -1,6 +1,7 @@
 // Images on surfaces: values between texels, beyond the border, at absurd coordinates, and holes.
 #include "core/kernel/scene/texture.h"
 
+#include "core/kernel/shading/textured.h"
 #include "core/scene/pack_scene.h"
 #include "tests/support/catch.hpp"
 #include "tests/support/scenes/shapes.h"
@@ -61,11 +62,32 @@ TEST_CASE("Values are finite for all coordinates") {
     }
 }
 
-TEST_CASE("Coordinates follow the corners, and a hole is where opacity is below one half") {
+TEST_CASE("Colors of vertices are interpolated, and multiply the image") {
+    constexpr FeatureSet kTextures = features(Feature::Textures);
+    HostScene scene = painted(true);
+    const SurfacePoint point{.primitive = 0, .material = 0};
+    const Vec3f b{0.5f, 0.25f, 0.25f};
+    const Vec3f image = tint_at<kTextures>(scene.view(), point, b);
+    scene.vertex_colors = {{1, 0, 0.5f}, {0, 1, 0.5f}, {0, 0.5f, 0.5f}};
+    CHECK(vertex_color_at(scene.view(), 0, b) == Vec3f{0.5f, 0.375f, 0.5f});
+    CHECK(tint_at<kTextures>(scene.view(), point, b) == image * Vec3f{0.5f, 0.375f, 0.5f});
+    CHECK(albedo_at<kTextures>(scene.view(), point, b) == 0.5f * image * Vec3f{0.5f, 0.375f, 0.5f});
+    CHECK(tint_at<FeatureSet{}>(scene.view(), point, b) == Vec3f{1.0f});
+    // Weights add up to 1 but for rounding; an albedo stays at most 1.
+    scene.vertex_colors.assign(3, Vec3f{1.0f});
+    CHECK(tint_at<kTextures>(scene.view(), point, {0.4000001f, 0.3f, 0.3000001f}).x <= 1.0f);
+}
+
+TEST_CASE("Coordinates follow the corners, and a hole is where opacity is below one half unless it blends") {
     const HostScene scene = painted(true);
     const Textures textures = scene.view().textures;
     const Vec2f uv = uv_at(textures, 0, {0.5f, 0.25f, 0.25f});
     CHECK(uv == Vec2f{0.25f, 0.25f});
-    CHECK_FALSE(is_hole(textures, 0, 0, {0.5f, 0.25f, 0.25f}));
-    CHECK(is_hole(textures, 0, 0, {0.0f, 0.75f, 0.25f}));
+    const MaterialOpacity& threshold = scene.opacities[0];
+    CHECK(opacity_of(textures, threshold, 0, {0.5f, 0.25f, 0.25f}) == 1.0f);
+    CHECK(opacity_of(textures, threshold, 0, {0.0f, 0.75f, 0.25f}) == 0.0f);
+    const MaterialOpacity blend{.image = threshold.image, .factor = 0.5f, .blends = 1};
+    CHECK(opacity_of(textures, blend, 0, {0.5f, 0.25f, 0.25f}) == 0.5f);
+    CHECK(opacity_of(textures, blend, 0, {0.0f, 0.75f, 0.25f}) == 0.125f);
+    CHECK(opacity_of(textures, {.factor = 0.3f, .blends = 1}, 0, {0.0f, 0.75f, 0.25f}) == 0.3f);
 }

@@ -1,0 +1,102 @@
+#include "core/io/mitsuba/adapters.h"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/io/line_reader.h"
+#include "core/io/mitsuba/surfaces.h"
+#include "core/kernel/base/math.h"
+
+namespace pl {
+namespace {
+
+bool is_adapter(const std::string& type) {
+    constexpr std::array<std::string_view, 7> kAdapters = {"twosided", "mask",      "bumpmap",     "normalmap",
+                                                           "coating",  "blendbsdf", "roughcoating"};
+    return std::find(kAdapters.begin(), kAdapters.end(), type) != kAdapters.end();
+}
+
+/// The image among the properties of an adapter, or nothing.
+MitsubaObject image_of(const MitsubaFile& file, const MitsubaObject& adapter) {
+    for (const MitsubaObject& child : adapter.children()) {
+        const MitsubaObject target = mitsuba_target(file, child);
+        if (target.element() == "texture" && target.type() == "bitmap") return target;
+    }
+    return {};
+}
+
+/// Multiplies the opacity by that of an adapter of the type mask.
+void read_mask(const MitsubaFile& file, const MitsubaObject& mask, SceneDescription& scene,
+               MitsubaAdapters& adapters) {
+    adapters.has_mask = true;
+    const MitsubaObject texture = mitsuba_target(file, mask.property("opacity"));
+    if (texture.element() != "texture") {
+        const glm::vec3 color = mask.color("opacity").value_or(glm::vec3(0.5f));
+        adapters.opacity *= std::clamp(luminance(color), 0.0f, 1.0f);
+    } else if (texture.type() != "bitmap" || adapters.opacities != kNoTexture) {
+        mask.note("opacities that are no image, and further ones inside of others, are left out");
+    } else {
+        adapters.opacities = mitsuba_opacities(texture, scene);
+        adapters.image = texture;
+    }
+}
+
+void read_normals(const MitsubaFile& file, const MitsubaObject& adapter, SceneDescription& scene,
+                  MitsubaAdapters& adapters) {
+    const MitsubaObject image = image_of(file, adapter);
+    if (!image) {
+        adapter.note(fmt::format("the texture of {} is no image, and is left out", in_quotes(adapter.type())));
+        return;
+    }
+    adapters.image = image;
+    if (adapter.type() == "bumpmap")
+        adapters.relief = {image, static_cast<double>(adapter.number("scale").value_or(1.0f))};
+    else
+        adapters.normals = mitsuba_image(image, TextureContent::Normal, scene).value_or(kNoTexture);
+}
+
+void read_adapter(const MitsubaFile& file, const MitsubaObject& adapter, SceneDescription& scene,
+                  MitsubaAdapters& adapters) {
+    const std::string type = adapter.type();
+    if (type == "mask")
+        read_mask(file, adapter, scene, adapters);
+    else if (type == "normalmap" || type == "bumpmap")
+        read_normals(file, adapter, scene, adapters);
+    else if (type == "blendbsdf")
+        adapter.note("of two surfaces that are blended the heavier one is shown");
+    else if (type != "twosided")
+        adapter.note(fmt::format("the effect of {} is left out: the surface inside of it is shown", in_quotes(type)));
+}
+
+/// The surface inside of an adapter: of two the heavier one.
+MitsubaObject inside_of(const MitsubaFile& file, const MitsubaObject& adapter) {
+    bool takes_second = adapter.type() == "blendbsdf" && adapter.number("weight").value_or(0.5f) > 0.5f;
+    for (const MitsubaObject& child : adapter.children()) {
+        const MitsubaObject target = mitsuba_target(file, child);
+        if (target.element() == "bsdf" && !std::exchange(takes_second, false)) return target;
+    }
+    return {};
+}
+
+}  // namespace
+
+MitsubaAdapters read_mitsuba_adapters(const MitsubaFile& file, const MitsubaObject& bsdf, SceneDescription& scene) {
+    constexpr int kMostAdapters = 16;
+    MitsubaAdapters adapters{.inside = bsdf};
+    for (int depth = 0; is_adapter(mitsuba_name(adapters.inside.type())); ++depth) {
+        const MitsubaObject adapter = adapters.inside;
+        read_adapter(file, adapter, scene, adapters);
+        adapters.inside = inside_of(file, adapter);
+        if (!adapters.inside || depth > kMostAdapters) {
+            adapter.fail(fmt::format("{}: expected a surface inside, got {}", adapter.type(),
+                                     adapters.inside ? "a circle" : "none"));
+        }
+    }
+    return adapters;
+}
+
+}  // namespace pl
