@@ -154,8 +154,8 @@ def masked(folder):
     def mask(opacity, color):
         return f'<bsdf type="mask">{opacity}<bsdf type="twosided">{diffuse(color)}</bsdf></bsdf>'
 
-    image = mask('<texture type="bitmap" name="opacity"><string name="filename" value="veil.png"/><boolean name="raw" value="true"/></texture>',
-                 GREEN)
+    image = mask('<texture type="bitmap" name="opacity"><string name="filename" value="veil.png"/>'
+                 '<boolean name="raw" value="true"/></texture>', GREEN)
     content = ground(diffuse(WHITE)) + sky() + box(diffuse(RED), (-0.55, 0.39, -0.4), (0.2, 0.4, 0.2), 25)
     content += box(mask('<float name="opacity" value="0.4"/>', WHITE), (-0.55, 0.59, -0.4), (0.35, 0.6, 0.35), 25)
     content += shape("rectangle", scaled(0.5, 0.5, 1) + turned("y", -20) + moved(0.5, 0.55, 0.3), image)
