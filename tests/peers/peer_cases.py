@@ -34,6 +34,7 @@ MITSUBA = [
          32, 128, ((-0.002, 0.002),) * 3, "Mitsuba spreads n texels of a map over n - 1 intervals"),
     Case("textured", xml.textured, DIFFUSE, 32, 64),
     Case("mask", xml.masked, DIFFUSE, 32, 96),
+    Case("vertex-colors", xml.vertex_colored, DIFFUSE, 32, 64),
     Case("normal-map", lambda folder: xml.normal_mapped(folder, WHITE), DIFFUSE, 48, 128, ((0.0, 0.002),) * 3,
          "a diffuse surface whose mapped normal faces away from the viewer is black in Mitsuba"),
     Case("mirror", lambda folder: xml.in_room(xml.MIRROR, WHITE), GLOSSY, 48, 128),
