@@ -22,8 +22,8 @@ void add(Fnv1a& hash, const glm::uvec3& v) {
     hash.add(std::uint64_t{v.z});
 }
 
-/// Adds the optional parts of a scene (lobes, colors of vertices, opacities, textures, far lights, lights without extent), each preceded by its name. Absent parts add
-/// nothing, so that a new kind of part does not change the hashes of existing scenes.
+/// Adds the optional parts of a scene (lobes, colors of vertices, opacities, textures, far lights, lights without extent), each preceded
+/// by its name. Absent parts add nothing, so that a new kind of part does not change the hashes of existing scenes.
 class PartHasher {
 public:
     explicit PartHasher(Fnv1a& hash) : hash_(hash) {}

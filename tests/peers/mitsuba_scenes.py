@@ -156,12 +156,28 @@ def masked(folder):
     def mask(opacity, color):
         return f'<bsdf type="mask">{opacity}<bsdf type="twosided">{diffuse(color)}</bsdf></bsdf>'
 
-    image = mask('<texture type="bitmap" name="opacity"><string name="filename" value="veil.png"/><boolean name="raw" value="true"/></texture>',
-                 GREEN)
+    image = mask('<texture type="bitmap" name="opacity"><string name="filename" value="veil.png"/>'
+                 '<boolean name="raw" value="true"/></texture>', GREEN)
     content = ground(diffuse(WHITE)) + sky() + box(diffuse(RED), (-0.55, 0.39, -0.4), (0.2, 0.4, 0.2), 25)
     content += box(mask('<float name="opacity" value="0.4"/>', WHITE), (-0.55, 0.59, -0.4), (0.35, 0.6, 0.35), 25)
     content += shape("rectangle", scaled(0.5, 0.5, 1) + turned("y", -20) + moved(0.5, 0.55, 0.3), image)
     content += box(diffuse(WHITE), (0.5, 0.39, -0.4), (0.3, 0.4, 0.3), -20)
+    return scene(content, eye=(0.4, 1.7, 3.4), target=(0, 0.5, 0))
+
+
+def vertex_colored(folder):
+    """A ground of large triangles with colors of its vertices, and surfaces of one color."""
+    points = [(x, z) for z in range(-4, 5, 2) for x in range(-4, 5, 2)]
+    rows = [f"{x} 0 {z} {0.5 + x / 10} {0.2 + 0.6 * (z % 4 == 0)} {0.5 - z / 10}" for x, z in points]
+    first = [5 * j + i for j in range(4) for i in range(4)]
+    faces = [face for k in first for face in (f"3 {k} {k + 5} {k + 6}", f"3 {k} {k + 6} {k + 1}")]
+    properties = "".join(f"property float {name}\n" for name in ("x", "y", "z", "r", "g", "b"))
+    (folder / "colors.ply").write_text(f"ply\nformat ascii 1.0\nelement vertex {len(rows)}\n{properties}element face {len(faces)}\n"
+                                       "property list uchar int vertex_indices\nend_header\n" + "\n".join(rows + faces) + "\n")
+    colors = ('<bsdf type="diffuse"><texture type="mesh_attribute" name="reflectance"><string name="name" value="vertex_color"/>'
+              '</texture></bsdf>')
+    content = f'<shape type="ply"><string name="filename" value="colors.ply"/><bsdf type="twosided">{colors}</bsdf></shape>' + sky()
+    content += box(diffuse(WHITE), (-0.55, 0.59, -0.4), (0.35, 0.6, 0.35), 25) + box(diffuse(RED), (0.5, 0.39, 0.3), (0.4, 0.4, 0.4), -20)
     return scene(content, eye=(0.4, 1.7, 3.4), target=(0, 0.5, 0))
 
 

@@ -34,6 +34,7 @@ MITSUBA = [
          32, 128, ((-0.002, 0.002),) * 3, "Mitsuba spreads n texels of a map over n - 1 intervals"),
     Case("textured", xml.textured, DIFFUSE, 32, 64),
     Case("mask", xml.masked, DIFFUSE, 32, 96),
+    Case("vertex-colors", xml.vertex_colored, DIFFUSE, 32, 64),
     Case("checkers", xml.checkered, DIFFUSE, 32, 64),
     Case("bump-map", lambda folder: xml.bump_mapped(folder, WHITE), DIFFUSE, 48, 128, ((0.0, 0.0025),) * 3,
          "a diffuse surface whose mapped normal faces away from the viewer is black in Mitsuba"),
