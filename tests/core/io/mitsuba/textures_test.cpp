@@ -1,26 +1,13 @@
 // Textures of Mitsuba surfaces: images and checkerboards, their transformations, reliefs, radiance.
 #include "core/io/mitsuba/textures.h"
 
-#include <algorithm>
-
 #include "core/io/image.h"
-#include "core/io/load_scene.h"
-#include "tests/support/catch.hpp"
-#include "tests/support/files/temporary_folder.h"
+#include "tests/core/io/mitsuba/mitsuba_text.h"
 
 using namespace pl;
-using pl::test::TemporaryFolder;
+using namespace pl::test;
 
 namespace {
-
-SceneDescription load(const TemporaryFolder& folder, const std::string& content) {
-    return load_scene(folder.write("s.xml", "<scene version=\"3.0.0\">\n" + content + "\n</scene>\n").string(), "");
-}
-
-bool is_told(const SceneDescription& scene, const std::string& words) {
-    return std::any_of(scene.warnings.begin(), scene.warnings.end(),
-                       [&](const std::string& warning) { return warning.find(words) != std::string::npos; });
-}
 
 std::string rectangle(const std::string& content) { return "<shape type=\"rectangle\">" + content + "</shape>"; }
 
@@ -50,15 +37,15 @@ TEST_CASE("mitsuba textures: coordinates are transformed before the image is tur
     const TemporaryFolder folder;
     write_image(folder);
     // The corner at (-1, 1) has v = 1 in Mitsuba, where the last row of the image is: here 0.
-    const SceneDescription plain = load(folder, rectangle(diffuse(bitmap("reflectance", ""))));
+    const SceneDescription plain = load_mitsuba_text(folder, rectangle(diffuse(bitmap("reflectance", ""))));
     CHECK(uv_at(plain, {-1, 1, 0}) == glm::vec2(0.0f, 0.0f));
-    const SceneDescription scaled =
-        load(folder,
-             rectangle(diffuse(bitmap("reflectance", "<transform name=\"to_uv\"><scale x=\"3\" y=\"2\"/><translate "
-                                                     "x=\"0.25\" y=\"0.5\"/></transform>"))));
+    const SceneDescription scaled = load_mitsuba_text(
+        folder,
+        rectangle(diffuse(bitmap("reflectance", "<transform name=\"to_uv\"><scale x=\"3\" y=\"2\"/><translate "
+                                                "x=\"0.25\" y=\"0.5\"/></transform>"))));
     CHECK(uv_at(scaled, {-1, -1, 0}) == glm::vec2(0.25f, 0.5f));
     CHECK(uv_at(scaled, {1, 1, 0}) == glm::vec2(3.25f, -1.5f));
-    const SceneDescription older = load(
+    const SceneDescription older = load_mitsuba_text(
         folder, rectangle(diffuse(bitmap("reflectance", "<float name=\"uscale\" value=\"3\"/><float "
                                                         "name=\"vscale\" value=\"2\"/><float name=\"uoffset\" "
                                                         "value=\"0.25\"/><float name=\"voffset\" value=\"0.5\"/>"))));
@@ -70,11 +57,11 @@ TEST_CASE("mitsuba textures: a transformation is that of its own surface alone, 
     const TemporaryFolder folder;
     write_image(folder);
     const std::string twice = "<transform name=\"to_uv\"><scale value=\"2\"/></transform>";
-    const SceneDescription scene =
-        load(folder, "<shape type=\"shapegroup\" id=\"g\">" + rectangle(diffuse(bitmap("reflectance", twice))) +
-                         "</shape><shape type=\"instance\"><ref id=\"g\"/></shape><shape type=\"instance\"><ref "
-                         "id=\"g\"/></shape>" +
-                         rectangle(diffuse(bitmap("reflectance", ""))));
+    const SceneDescription scene = load_mitsuba_text(
+        folder, "<shape type=\"shapegroup\" id=\"g\">" + rectangle(diffuse(bitmap("reflectance", twice))) +
+                    "</shape><shape type=\"instance\"><ref id=\"g\"/></shape><shape type=\"instance\"><ref "
+                    "id=\"g\"/></shape>" +
+                    rectangle(diffuse(bitmap("reflectance", ""))));
     REQUIRE(scene.triangles.size() == 6);
     for (const TriangleDescription& t : scene.triangles)
         for (int k = 0; k < 3; ++k)
@@ -85,10 +72,10 @@ TEST_CASE("mitsuba textures: a transformation is that of its own surface alone, 
 
 TEST_CASE("mitsuba textures: a checkerboard is an image of four squares") {
     const TemporaryFolder folder;
-    const SceneDescription scene =
-        load(folder, rectangle(diffuse("<texture type=\"checkerboard\" name=\"reflectance\"><rgb name=\"color0\" "
-                                       "value=\"0.5, 0.25, 0.125\"/><transform name=\"to_uv\"><scale value=\"8\"/>"
-                                       "</transform></texture>")));
+    const SceneDescription scene = load_mitsuba_text(
+        folder, rectangle(diffuse("<texture type=\"checkerboard\" name=\"reflectance\"><rgb name=\"color0\" "
+                                  "value=\"0.5, 0.25, 0.125\"/><transform name=\"to_uv\"><scale value=\"8\"/>"
+                                  "</transform></texture>")));
     REQUIRE(scene.textures.size() == 1);
     const TextureDescription& image = scene.textures[0];
     CHECK(scene.materials[0].textures.albedo == 0);
@@ -103,7 +90,7 @@ TEST_CASE("mitsuba textures: a checkerboard is an image of four squares") {
     CHECK(image.texels[half * kCheckerTexels + half] == first);
     CHECK(uv_at(scene, {1, -1, 0}).x == 8.0f);
     CHECK(scene.warnings.size() == 1);  // of the light that the scene lacks
-    CHECK(is_told(load(folder, rectangle(diffuse("<texture type=\"noise\" name=\"reflectance\"/>"))),
+    CHECK(is_told(load_mitsuba_text(folder, rectangle(diffuse("<texture type=\"noise\" name=\"reflectance\"/>"))),
                   "textures of the type 'noise' are shown as one color"));
 }
 
@@ -113,10 +100,10 @@ TEST_CASE("mitsuba textures: a bump map rises in world units, by the scale of it
     write_png8(folder.path() / "i.png",
                {.width = 4, .height = 1, .rgb = {0, 0, 0, 0, 0, 0, 127, 127, 127, 127, 127, 127}});
     const auto slope = [&](const std::string& raw, const std::string& scale, const std::string& shape) {
-        const SceneDescription scene =
-            load(folder, "<shape type=\"rectangle\"><transform name=\"to_world\"><scale " + shape +
-                             "/></transform><bsdf type=\"bumpmap\"><float name=\"scale\" value=\"" + scale + "\"/>" +
-                             bitmap("arbitrary", raw) + diffuse("") + "</bsdf></shape>");
+        const SceneDescription scene = load_mitsuba_text(
+            folder, "<shape type=\"rectangle\"><transform name=\"to_world\"><scale " + shape +
+                        "/></transform><bsdf type=\"bumpmap\"><float name=\"scale\" value=\"" + scale + "\"/>" +
+                        bitmap("arbitrary", raw) + diffuse("") + "</bsdf></shape>");
         REQUIRE(scene.materials[0].textures.normal != kNoTexture);
         CHECK(scene.materials[0].normal_green == NormalGreen::Up);
         CHECK_FALSE(is_told(scene, "bump"));
@@ -139,25 +126,26 @@ TEST_CASE("mitsuba textures: where the coordinates of a bump map are uneven its 
     const TemporaryFolder folder;
     write_image(folder);
     const std::string bumpy = "<bsdf type=\"bumpmap\" id=\"b\">" + bitmap("arbitrary", "") + diffuse("") + "</bsdf>";
-    const SceneDescription scene = load(folder, bumpy + rectangle("<ref id=\"b\"/>") +
-                                                    "<shape type=\"rectangle\"><transform name=\"to_world\"><scale "
-                                                    "value=\"5\"/></transform><ref id=\"b\"/></shape>");
+    const SceneDescription scene =
+        load_mitsuba_text(folder, bumpy + rectangle("<ref id=\"b\"/>") +
+                                      "<shape type=\"rectangle\"><transform name=\"to_world\"><scale "
+                                      "value=\"5\"/></transform><ref id=\"b\"/></shape>");
     CHECK(is_told(scene, "bump maps are shown by the mean scale"));
-    CHECK(is_told(load(folder, rectangle("<bsdf type=\"bumpmap\">" + diffuse("") + "</bsdf>")),
+    CHECK(is_told(load_mitsuba_text(folder, rectangle("<bsdf type=\"bumpmap\">" + diffuse("") + "</bsdf>")),
                   "the texture of 'bumpmap' is no image"));
-    CHECK(is_told(load(folder, rectangle("<bsdf type=\"bumpmap\">" +
-                                         bitmap("arbitrary", "<float name=\"uscale\" value=\"2\"/>") +
-                                         diffuse(bitmap("reflectance", "")) + "</bsdf>")),
+    CHECK(is_told(load_mitsuba_text(folder, rectangle("<bsdf type=\"bumpmap\">" +
+                                                      bitmap("arbitrary", "<float name=\"uscale\" value=\"2\"/>") +
+                                                      diffuse(bitmap("reflectance", "")) + "</bsdf>")),
                   "share that of its color"));
 }
 
 TEST_CASE("mitsuba textures: an image of radiance") {
     const TemporaryFolder folder;
     write_image(folder);
-    const SceneDescription scene =
-        load(folder, rectangle("<emitter type=\"area\">" +
-                               bitmap("radiance", "<float name=\"uscale\" value=\"2\"/>") + "</emitter>") +
-                         rectangle("<emitter type=\"area\"><texture type=\"noise\" name=\"radiance\"/></emitter>"));
+    const SceneDescription scene = load_mitsuba_text(
+        folder, rectangle("<emitter type=\"area\">" + bitmap("radiance", "<float name=\"uscale\" value=\"2\"/>") +
+                          "</emitter>") +
+                    rectangle("<emitter type=\"area\"><texture type=\"noise\" name=\"radiance\"/></emitter>"));
     const MaterialDescription& shining = scene.materials[scene.triangles[0].material];
     CHECK(shining.emission == glm::vec3(1.0f));
     CHECK(shining.textures.emission == 0);

@@ -1,0 +1,39 @@
+// Scenes of Mitsuba from text, for tests of their reader.
+#pragma once
+
+#include <algorithm>
+#include <string>
+
+#include "core/io/load_scene.h"
+#include "tests/support/catch.hpp"
+#include "tests/support/files/input_error.h"
+#include "tests/support/files/temporary_folder.h"
+
+namespace pl::test {
+
+inline std::string scene_of(const std::string& content) {
+    return "<scene version=\"3.0.0\">\n" + content + "\n</scene>\n";
+}
+
+/// Read from s.xml in the folder.
+inline SceneDescription load_mitsuba_text(const TemporaryFolder& folder, const std::string& content) {
+    return load_scene(folder.write("s.xml", scene_of(content)).string(), "");
+}
+inline SceneDescription load_mitsuba_text(const std::string& content) {
+    return load_mitsuba_text(TemporaryFolder(), content);
+}
+
+/// The message by which it is refused.
+inline std::string refusal(const std::string& content) {
+    return input_error([&] { load_mitsuba_text(content); });
+}
+
+inline const std::string kSquare = "<shape type=\"rectangle\"/>";
+
+/// Whether a warning has these words.
+inline bool is_told(const SceneDescription& scene, const std::string& words) {
+    return std::any_of(scene.warnings.begin(), scene.warnings.end(),
+                       [&](const std::string& warning) { return warning.find(words) != std::string::npos; });
+}
+
+}  // namespace pl::test
