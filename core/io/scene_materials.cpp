@@ -13,6 +13,7 @@
 #include "core/io/json_file.h"
 #include "core/io/mtl_surface.h"
 #include "core/io/nearest_name.h"
+#include "core/io/sky/sky_model.h"
 #include "core/io/surface_names.h"
 #include "core/io/texture_file.h"
 
@@ -170,6 +171,26 @@ void read_map(const JsonDocument& file, SceneDescription& scene) {
     }
 }
 
+void read_sky(const JsonDocument& file, SceneDescription& scene) {
+    const std::string at = "/environment/sky";
+    if (file.object(at, {"turbidity", "sun_direction", "up", "albedo", "scale", "sun_scale"}) == nullptr) return;
+    for (const char* other : {"/environment/map", "/environment/sun"})
+        if (file.has(other)) file.fail(at, fmt::format("expected a sky or {}, got both", other));
+    const auto direction = [&](const char* key, const glm::vec3& standard) {
+        const glm::vec3 given = file.vector(at + key).value_or(standard);
+        if (given == glm::vec3(0.0f)) file.fail(at + key, "expected a direction, got a vector of no length");
+        return glm::normalize(given);
+    };
+    SkyDescription sky;
+    sky.up = direction("/up", sky.up);
+    sky.sun_direction = direction("/sun_direction", sky.up);
+    sky.turbidity = read_within(file, at + "/turbidity", kLeastTurbidity, kMostTurbidity).value_or(sky.turbidity);
+    sky.albedo = read_share(file, at + "/albedo").value_or(sky.albedo);
+    sky.sky_scale = read_within(file, at + "/scale", 0.0f, kMostSkyScale).value_or(sky.sky_scale);
+    sky.sun_scale = read_within(file, at + "/sun_scale", 0.0f, kMostSkyScale).value_or(sky.sun_scale);
+    add_sky(sky, scene);
+}
+
 }  // namespace
 
 void read_materials(const JsonDocument& file, SceneDescription& scene) {
@@ -242,12 +263,13 @@ void write_material_file(const std::filesystem::path& path, const std::vector<Ma
 }
 
 void read_environment(const JsonDocument& file, SceneDescription& scene) {
-    if (file.object("/environment", {"radiance", "map", "scale", "rotation_deg", "sun"}) == nullptr) {
+    if (file.object("/environment", {"radiance", "map", "scale", "rotation_deg", "sun", "sky"}) == nullptr) {
         return;
     }
     scene.environment = read_light(file, "/environment/radiance").value_or(glm::vec3(0.0f));
     read_map(file, scene);
     read_sun(file, scene.sun);
+    read_sky(file, scene);
 }
 
 }  // namespace pl

@@ -254,6 +254,11 @@ def stained_glass():
     return scene(content, eye=(0.4, 1.7, 3.4), target=(0, 0.5, 0)).replace('type="path"', 'type="volpath"')
 
 
+def clear_sky():
+    return ('<emitter type="sunsky"><float name="turbidity" value="4"/><vector name="sun_direction" x="0.6" y="0.7" z="0.4"/>'
+            '<transform name="to_world"><rotate x="1" angle="-90"/></transform><float name="sun_scale" value="0.02"/></emitter>')
+
+
 MIRROR = '<bsdf type="conductor"><string name="material" value="none"/></bsdf>'
 GOLD = ('<bsdf type="conductor"><rgb name="eta" value="0.143, 0.375, 1.442"/><rgb name="k" value="3.983, 2.386, 1.603"/></bsdf>')
 # Of a high index: Schlick's approximation is 15 % too bright near the edge.

@@ -32,6 +32,7 @@ MITSUBA = [
     Case("sky", lambda folder: xml.outside(xml.sky(), WHITE, xml.diffuse(xml.RED)), DIFFUSE, 32, 64),
     Case("environment-map", lambda folder: xml.outside(xml.environment_map(folder), WHITE, xml.diffuse(xml.RED)), DIFFUSE,
          32, 128, ((-0.002, 0.002),) * 3, "Mitsuba spreads n texels of a map over n - 1 intervals"),
+    Case("clear-sky", lambda folder: xml.outside(xml.clear_sky(), WHITE, xml.diffuse(xml.RED)), DIFFUSE, 32, 128),
     Case("textured", xml.textured, DIFFUSE, 32, 64),
     Case("mask", xml.masked, DIFFUSE, 32, 96),
     Case("vertex-colors", xml.vertex_colored, DIFFUSE, 32, 64),

@@ -12,6 +12,7 @@
 #include "core/io/mitsuba/lights.h"
 #include "core/io/mitsuba/medium.h"
 #include "core/io/mitsuba/shapes.h"
+#include "core/io/mitsuba/sky.h"
 #include "core/io/mitsuba/surfaces.h"
 #include "core/io/texture_file.h"
 #include "core/scene/up_axis.h"
@@ -170,7 +171,7 @@ private:
             scene_.environment = emitter.color("radiance").value_or(glm::vec3(1.0f));
         else if (type == "envmap" && scale >= 0.0f)
             read_map(emitter, scale);
-        else if (!add_mitsuba_light(emitter, scene_))
+        else if (!add_mitsuba_light(emitter, scene_) && !add_mitsuba_sky(emitter, scene_))
             emitter.note(fmt::format("emitters of the type {} are left out", in_quotes(type)));
     }
 

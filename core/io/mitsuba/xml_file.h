@@ -50,6 +50,9 @@ public:
     /// Color of an element `rgb`, `spectrum` or `float` itself.
     glm::vec3 own_color() const;
 
+    /// Whether the file says that it is of Mitsuba 0.x.
+    bool is_of_version_0() const;
+
     std::string place() const;
     /// The same for the same element of a file alone: several may begin in one line.
     const void* identity() const { return node_.internal_object(); }

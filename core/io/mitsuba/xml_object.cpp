@@ -79,6 +79,10 @@ MitsubaObject MitsubaObject::child(const std::string& element) const {
     return {};
 }
 
+bool MitsubaObject::is_of_version_0() const {
+    return std::string_view(node_.root().child("scene").attribute("version").value()).starts_with("0.");
+}
+
 std::string MitsubaObject::place() const {
     return text_ == nullptr ? "" : pl::place(text_->path, text_->line_of(node_.offset_debug()));
 }

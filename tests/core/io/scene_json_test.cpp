@@ -81,6 +81,18 @@ TEST_CASE("Everything a scene file may say") {
               {"exposure", "-1.5"}, {"method", "reinforcement"}, {"nee", "on"}, {"size", "640x480"}, {"spp", "128"}});
 }
 
+TEST_CASE("A clear sky is a map and a sun, around the axis that the file says") {
+    const SceneDescription scene =
+        load(", \"environment\": {\"sky\": {\"sun_direction\": [3, 4, 0], \"sun_scale\": 2, \"turbidity\": 5}}");
+    CHECK(scene.environment_map.texels.size() == 512 * 256);
+    CHECK(scene.environment_map.texels[192 * 512] == glm::vec3(0.0f));
+    CHECK(scene.sun.direction == glm::vec3(0.6f, 0.8f, 0.0f));
+    CHECK(scene.sun.radiance.y > 2e4f);
+    const SceneDescription upright = load(", \"environment\": {\"sky\": {\"up\": [0, 0, 2], \"scale\": 0}}");
+    CHECK(upright.environment_map.texels.empty());
+    CHECK(upright.sun.direction == glm::vec3(0, 0, 1));
+}
+
 TEST_CASE("A part of a camera completes the framing one") {
     const SceneDescription wide = load(", \"camera\": {\"fov_deg\": 90}");
     CHECK(wide.camera.fov_deg == 90.0f);
@@ -135,6 +147,10 @@ TEST_CASE("Values of a wrong type or range are refused with file and line") {
         Case{"\"environment\": {\"sun\": {\"direction\": [0, 0, 0]}}", "no length"},
         Case{"\"environment\": {\"sun\": {\"angle_deg\": 0}}", "within [0.01, 180]"},
         Case{"\"environment\": {\"sun\": {\"radiance\": [1, 1, -1]}}", "at least 0"},
+        Case{"\"environment\": {\"sky\": {\"turbidity\": 0.5}}", "within [1, 10]"},
+        Case{"\"environment\": {\"sky\": {\"sun_direction\": [0, 0, 0]}}", "no length"},
+        Case{"\"environment\": {\"sky\": {\"albedo\": [2, 0, 0]}}", "within [0, 1]"},
+        Case{"\"environment\": {\"sky\": {}, \"sun\": {}}", "expected a sky or /environment/sun, got both"},
         Case{"\"materials\": {\"wall\": {\"surface\": \"metal\"}}", "expected one of diffuse, conductor"},
         Case{"\"materials\": {\"wall\": {\"roughness\": 2}}", "within [0, 1]"},
         Case{"\"materials\": {\"wall\": {\"ior\": 0.5}}", "within [1, 4]"},

@@ -11,12 +11,12 @@ TEST_CASE("mitsuba: area and constant emitters, others are told") {
         "<shape type=\"rectangle\"><emitter type=\"area\"><rgb name=\"radiance\" value=\"20, 3, "
         "3\"/></emitter></shape>" +
         kSquare +
-        "<emitter type=\"constant\"><rgb name=\"radiance\" value=\"0.3\"/></emitter><emitter type=\"sunsky\"/>");
+        "<emitter type=\"constant\"><rgb name=\"radiance\" value=\"0.3\"/></emitter><emitter type=\"projector\"/>");
     CHECK(scene.materials[scene.triangles[0].material].emission == glm::vec3(20, 3, 3));
     CHECK(scene.materials[scene.triangles[0].material].albedo == glm::vec3(0.0f));
     CHECK(scene.materials[scene.triangles[2].material].emission == glm::vec3(0.0f));
     CHECK(scene.environment == glm::vec3(0.3f));
-    CHECK(is_told(scene, "emitters of the type 'sunsky' are left out"));
+    CHECK(is_told(scene, "emitters of the type 'projector' are left out"));
 }
 
 TEST_CASE("mitsuba: point, spot and directional emitters") {

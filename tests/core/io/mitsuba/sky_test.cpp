@@ -1,0 +1,75 @@
+// Sky and sun of Mitsuba scenes of 3 and 0.6.
+#include "core/io/mitsuba/sky.h"
+
+#include "tests/core/io/mitsuba/mitsuba_text.h"
+
+using namespace pl;
+using namespace pl::test;
+
+namespace {
+
+SceneDescription under(const std::string& emitters) { return load_mitsuba_text(kSquare + emitters); }
+
+/// Brightest row and column of the environment map.
+glm::uvec2 brightest(const SceneDescription& scene) {
+    const EnvironmentMapDescription& map = scene.environment_map;
+    std::size_t best = 0;
+    for (std::size_t i = 0; i < map.texels.size(); ++i)
+        if (map.texels[i].y > map.texels[best].y) best = i;
+    return {best / map.width, best % map.width};
+}
+
+}  // namespace
+
+TEST_CASE("mitsuba sky: sun and sky stand where the direction says, around the axis of the emitter") {
+    const SceneDescription scene =
+        under("<emitter type=\"sunsky\"><vector name=\"sun_direction\" x=\"0\" y=\"1\" z=\"1\"/><transform "
+              "name=\"to_world\"><rotate x=\"1\" angle=\"-90\"/></transform></emitter>");
+    CHECK(glm::length(scene.sun.direction - glm::normalize(glm::vec3(0, 1, 1))) < 1e-6f);
+    CHECK(scene.sun.radiance.y > 1e4f);
+    // y is up: the lower half of the map is dark; +z is at its border.
+    CHECK(scene.environment_map.texels[192 * 512].y == 0.0f);
+    const glm::uvec2 at = brightest(scene);
+    CHECK((at.x >= 62 && at.x <= 65));
+    CHECK((at.y <= 2 || at.y >= 509));
+    CHECK_FALSE(is_told(scene, "sun"));
+}
+
+TEST_CASE("mitsuba sky: in 0.6 y is up, and sky and sun may be emitters of their own") {
+    const TemporaryFolder folder;
+    const auto older = [&](const std::string& emitters) {
+        const std::string text = "<scene version=\"0.6.0\">" + kSquare + emitters + "</scene>";
+        return load_scene(folder.write("s.xml", text).string(), "");
+    };
+    const std::string direction = "<vector name=\"sunDirection\" x=\"1\" y=\"1\" z=\"0\"/>";
+    const SceneDescription both = older("<emitter type=\"sky\">" + direction + "</emitter><emitter type=\"sun\">" +
+                                        direction + "<float name=\"scale\" value=\"2\"/></emitter>");
+    CHECK(both.environment_map.texels[0].y > 0.0f);
+    CHECK(both.environment_map.texels[192 * 512].y == 0.0f);
+    const SceneDescription one = older("<emitter type=\"sunsky\">" + direction + "</emitter>");
+    CHECK(both.environment_map.texels == one.environment_map.texels);
+    CHECK(both.sun.radiance == 2.0f * one.sun.radiance);
+    CHECK_FALSE(is_told(both, "of two skies"));
+    const SceneDescription two = older("<emitter type=\"sky\"/><emitter type=\"sky\"/>");
+    CHECK(is_told(two, "of two skies, environment maps or suns the first one is shown"));
+    CHECK(two.sun.radiance == glm::vec3(0.0f));
+}
+
+TEST_CASE("mitsuba sky: without a direction the sun stands on a July afternoon, dates are told") {
+    const SceneDescription scene = under("<emitter type=\"sunsky\"/>");
+    CHECK(scene.sun.direction.z == Approx(0.7188f).epsilon(1e-3));
+    CHECK(is_told(under("<emitter type=\"sunsky\"><integer name=\"month\" value=\"1\"/></emitter>"),
+                  "not placed by date and time"));
+}
+
+TEST_CASE("mitsuba sky: values out of range are refused with their place") {
+    CHECK_THAT(refusal(kSquare + "<emitter type=\"sunsky\"><float name=\"turbidity\" value=\"11\"/></emitter>"),
+               contains("s.xml:2: 'turbidity': expected a number from 1 to 10, got 11"));
+    CHECK_THAT(refusal(kSquare + "<emitter type=\"sunsky\"><float name=\"sky_scale\" value=\"-1\"/></emitter>"),
+               contains("'sky_scale'"));
+    CHECK_THAT(refusal(kSquare + "<emitter type=\"sunsky\"><rgb name=\"albedo\" value=\"2\"/></emitter>"),
+               contains("'albedo': expected a color within [0, 1]"));
+    CHECK_THAT(refusal(kSquare + "<emitter type=\"sunsky\"><vector name=\"sun_direction\" x=\"0\" y=\"0\" "
+                                 "z=\"0\"/></emitter>"),
+               contains("expected a direction"));
+}
