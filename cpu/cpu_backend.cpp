@@ -17,7 +17,9 @@
 #include "cpu/emission_pass.h"
 #include "cpu/film_store.h"
 #include "cpu/launchers.h"
+#include "cpu/neural_kernels.h"
 #include "cpu/neural_update.h"
+#include "cpu/neural_vertex_update.h"
 #include "cpu/parallel_for.h"
 #include "cpu/view_pass.h"
 #include "cpu/volume_update.h"
@@ -34,6 +36,9 @@ const PassKernels<PicturePass>& kernels_for(const PassRequest& request, const An
         with_host_kernel<SdTreeField>(request.kernel_method(), request.learning, samples_lights, take_host_kernel);
     else if (std::holds_alternative<LobeField>(field))
         with_host_kernel<LobeField>(request.kernel_method(), request.learning, samples_lights, take_host_kernel);
+    else if (std::holds_alternative<NeuralVertexField>(field))
+        with_host_kernel<NeuralVertexField>(request.kernel_method(), request.learning, samples_lights,
+                                            take_host_kernel);
     else
         with_method_kernel(request.kernel_method(), request.learning, samples_lights,
                            [&]<int kEntry>() { kernels = &picture_kernels<kEntry>(); });
@@ -91,8 +96,7 @@ public:
     }
     std::optional<NetworkStatus> network_status(MethodId method) const override {
         const std::optional<StoredField>& field = fields_[index_of(method)];
-        const auto* neural = field ? std::get_if<HostNeural>(&field->arrays) : nullptr;
-        return neural != nullptr ? std::optional(status_of(*neural)) : std::nullopt;
+        return field ? network_status_of(field->arrays) : std::nullopt;
     }
 
     void reset_film(FilmSlot slot, int width, int height) override {
@@ -185,6 +189,10 @@ private:
         update(static_cast<HostTables&>(field), is_updated);
         update_network(shape_, *volumes_, field, settings_.threads);
     }
+    void update(HostNeuralVertex& field, bool is_updated) const {
+        update(static_cast<HostTables&>(field), is_updated);
+        update_vertex_network(shape_, *volumes_, field, settings_.threads);
+    }
 
     StoredField& existing_field(MethodId method) {
         std::optional<StoredField>& field = fields_[index_of(method)];
@@ -195,7 +203,11 @@ private:
     }
     AnyFieldView learned_field(MethodId method) {
         AnyFieldView field = field_view(shape_, *volumes_, existing_field(method).arrays);
-        visit_field(field, [&](auto& view) { view.writers = settings_.threads == 1 ? Writers::One : Writers::Many; });
+        visit_field(field, [&](auto& view) {
+            view.writers = settings_.threads == 1 ? Writers::One : Writers::Many;
+            if constexpr (std::is_same_v<std::remove_cvref_t<decltype(view)>, NeuralVertexField>)
+                view.evaluate = best_neural_kernels().evaluate_vertex;
+        });
         return field;
     }
 

@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <span>
 
+#include "core/kernel/guiding/vertex_network.h"
+
 namespace pl {
 
 /// c = a b, or c + a b if it `adds`, each element summed in ascending order of the inner index. Element (row, i) of `a` is
@@ -30,6 +32,22 @@ struct VolumeLight {
     const float* is_cell;     ///< 1 or 0
     const float* logarithms;  ///< of the predicted radiance in these units
     std::uint32_t columns;
+};
+
+/// The light of one volume in directions of its cells, and the mixture that learns it. Component k has the density exp(offset_k + axis_k
+/// w) over directions w, not normalized. Arrays of directions: [column]; those behind the cells have no probability.
+struct MixtureLight {
+    const float* probability;  ///< of the light; the sum is 1
+    const float *x, *y, *z;    ///< of unit directions
+    float offset[kVertexLobes];
+    float axis[3][kVertexLobes];
+    std::uint32_t columns;
+};
+
+/// Expectations over the light: of the responsibility of each component, and of that times the direction.
+struct MixtureShares {
+    float weight[kVertexLobes];
+    float direction[3][kVertexLobes];
 };
 
 /// Shares of the old in the running means of slopes and their squares.
@@ -58,6 +76,9 @@ struct NeuralKernels {
     /// Unnormalized probabilities of side x side cells: their learned radiance with `predicted` as the prior.
     void (*weigh)(const VolumeLight& light, const float* predicted, std::uint32_t side, float* weights);
     void (*descend)(const DescentStep& step);
+    /// Fills `shares`. Returns the expected logarithm of the density of all components together.
+    float (*attribute)(const MixtureLight& light, MixtureShares& shares);
+    VertexEvaluator evaluate_vertex;
 };
 
 extern const NeuralKernels kNeuralKernelsBaseline;

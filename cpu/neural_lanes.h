@@ -2,7 +2,6 @@
 // width of vectors changes no bit.
 #pragma once
 
-#include "core/fields/network_layout.h"
 #include "core/kernel/guiding/direction_cells.h"
 #include "cpu/lanes.h"
 #include "cpu/neural_kernels.h"
@@ -187,8 +186,55 @@ void descend(const DescentStep& step) {
     }
 }
 
+/// Logarithms of the density of each component at a vector of directions, and the largest of them.
+struct ComponentLogarithms {
+    LaneFloat values[kVertexLobes];
+    LaneFloat largest;
+
+    PL_INLINE ComponentLogarithms(const MixtureLight& light, const LaneFloat& x, const LaneFloat& y,
+                                  const LaneFloat& z) {
+        for (std::uint32_t k = 0; k < kVertexLobes; ++k) {
+            values[k] = light.offset[k] + light.axis[0][k] * x + light.axis[1][k] * y + light.axis[2][k] * z;
+            largest = k == 0 ? values[0] : larger(largest, values[k]);
+        }
+    }
+};
+
+PL_INLINE LaneFloat logarithms_of(const LaneFloat& values) {
+    float each[kLaneWidth];
+    store_lanes(values, each);
+    for (float& value : each) value = log_of(value);
+    return load_lanes<LaneFloat>(each);
+}
+
+float attribute(const MixtureLight& light, MixtureShares& shares) {
+    ColumnTotal logarithm, weight[kVertexLobes], direction[3][kVertexLobes];
+    for_columns(light.columns, [&](std::uint32_t part, std::uint32_t i) {
+        const LaneFloat at[3] = {column(light.x, i), column(light.y, i), column(light.z, i)};
+        const LaneFloat probability = column(light.probability, i);
+        ComponentLogarithms components(light, at[0], at[1], at[2]);
+        LaneFloat sum{};
+        for (LaneFloat& value : components.values) {
+            value = exponential(value - components.largest);
+            sum += value;
+        }
+        logarithm.parts[part] += probability * (components.largest + logarithms_of(sum));
+        const LaneFloat scale = probability / sum;
+        for (std::uint32_t k = 0; k < kVertexLobes; ++k) {
+            const LaneFloat share = scale * components.values[k];
+            weight[k].parts[part] += share;
+            for (std::uint32_t axis = 0; axis < 3; ++axis) direction[axis][k].parts[part] += share * at[axis];
+        }
+    });
+    for (std::uint32_t k = 0; k < kVertexLobes; ++k) {
+        shares.weight[k] = weight[k].total();
+        for (std::uint32_t axis = 0; axis < 3; ++axis) shares.direction[axis][k] = direction[axis][k].total();
+    }
+    return logarithm.total();
+}
+
 constexpr NeuralKernels neural_kernels_named(const char* isa) {
-    return {isa, multiply, slopes, predict, weigh, descend};
+    return {isa, multiply, slopes, predict, weigh, descend, attribute, evaluate_vertex<LaneFloat>};
 }
 
 }  // namespace

@@ -4,8 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "core/fields/network_layout.h"
-#include "core/kernel/base/math.h"
+#include "core/kernel/guiding/network_inputs.h"
 #include "cpu/neural_kernels.h"
 
 namespace pl {
@@ -13,17 +12,12 @@ namespace pl {
 /// Volumes that are worked on together.
 inline constexpr std::uint32_t kNetworkBlock = 64;
 
-/// Where the network is asked. `place` is in the unit cube.
-struct NetworkPoint {
-    Vec3f place, normal;
-};
-
 /// Values of all units for a block of volumes, [volume][unit], and in training the slopes of the loss by them.
 struct NetworkBlock {
-    explicit NetworkBlock(std::uint32_t columns);
+    explicit NetworkBlock(const NetworkLayout& layout);
 
-    std::vector<float> inputs, first, second, logarithms;
-    std::vector<float> input_slopes, first_slopes, second_slopes, logarithm_slopes;
+    std::vector<float> inputs, first, second, outputs;
+    std::vector<float> input_slopes, first_slopes, second_slopes, output_slopes;
 };
 
 /// A network for one set of weights.
@@ -35,7 +29,7 @@ public:
     /// Fills the block's units for these points, at most kNetworkBlock of them.
     void predict(std::span<const NetworkPoint> points, NetworkBlock& block) const;
 
-    /// From block.logarithm_slopes: the slopes by the weights of the layers into `slopes`, from NetworkLayout::first on, and
+    /// From block.output_slopes: the slopes by the weights of the layers into `slopes`, from NetworkLayout::first on, and
     /// those by the inputs into the block. The block is that of the last predict().
     void propagate(NetworkBlock& block, float* slopes) const;
 

@@ -49,7 +49,7 @@ public:
         if (volumes_.normals.size() == 0)
             throw Error(ErrorKind::Runtime, "CUDA back end: expected volumes before tables, got none");
         if (representation_of(field) != Representation::Table) {
-            constexpr const char* kOthers[]{"", "an SD-tree", "lobes", "a network"};
+            constexpr const char* kOthers[]{"", "an SD-tree", "lobes", "a network", "a network for vertices"};
             throw Error(ErrorKind::Unavailable,
                         fmt::format("CUDA back end: expected a field of tables, got {}, which the CPU serves: take "
                                     "--backend cpu or --field table",

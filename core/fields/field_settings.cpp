@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/fields/lobe_model.h"
-#include "core/fields/neural_model.h"
+#include "core/fields/neural_vertex_model.h"
 #include "core/fields/sd_tree_model.h"
 #include "core/fields/volume_grid.h"
 #include "core/scene/pack_scene.h"
@@ -24,6 +24,7 @@ double affordable(const FieldSettings& settings, std::size_t light_clusters) {
                  table_bytes(settings.bins, light_clusters);
     double left = settings.budget_megabytes * kBytesPerMegabyte;
     if (settings.representation == Representation::Neural) left -= static_cast<double>(network_bytes(settings.bins));
+    if (settings.representation == Representation::NeuralVertex) left -= static_cast<double>(vertex_network_bytes());
     return std::max(left, 0.0) / static_cast<double>(bytes);
 }
 

@@ -9,11 +9,19 @@ namespace pl {
 
 /// How a method that learns represents incident radiance. Files store these numbers.
 enum class Representation : std::uint32_t {
-    Table,   ///< a table of cells per radiance volume
-    SdTree,  ///< quadtrees over directions at the leaves of a binary tree over space   [Mueller et al. 2017]
-    Lobes,   ///< a mixture of von Mises-Fisher lobes per radiance volume   [Ruppert et al. 2020]
-    Neural,  ///< tables, and a network over all volumes as the prior of their probabilities
+    Table,         ///< a table of cells per radiance volume
+    SdTree,        ///< quadtrees over directions at the leaves of a binary tree over space   [Mueller et al. 2017]
+    Lobes,         ///< a mixture of von Mises-Fisher lobes per radiance volume   [Ruppert et al. 2020]
+    Neural,        ///< tables, and a network over all volumes as the prior of their probabilities
+    NeuralVertex,  ///< a network that gives every vertex its mixture of lobes, taught by tables   [Dong et al. 2023]
 };
+
+inline constexpr Representation kLastRepresentation = Representation::NeuralVertex;
+
+/// Whether tables of radiance volumes keep what is learned: then they are refined, and sampled or the teacher of what is.
+constexpr bool has_tables(Representation representation) {
+    return representation != Representation::SdTree && representation != Representation::Lobes;
+}
 
 /// The training samples that an SD-tree is built from. Files store these numbers.
 enum class Iterations : std::uint32_t {

@@ -88,6 +88,27 @@ static_assert(FieldInspector<LobeInspector>);
 
 inline LobeInspector inspector_of(const LobeField& field) { return {field}; }
 
+/// The mixtures at the sites of volumes, by the cells of their tables, whose radiance and samples they are taught by.
+struct NeuralVertexInspector : TableInspector {
+    NeuralVertexField mixtures;
+
+    float probability(std::int32_t volume, int cell) const;
+    float density(std::int32_t volume, Vec2f square) const;
+
+private:
+    /// Kept for the next direction: the network is asked once for a volume.
+    const VertexMixture& mixture_of(std::int32_t volume) const;
+    mutable VertexMixture mixture_{};
+    mutable std::int32_t mixture_volume_ = kNoVolume;
+};
+static_assert(FieldInspector<NeuralVertexInspector>);
+
+inline NeuralVertexInspector inspector_of(const NeuralVertexField& field) {
+    NeuralVertexInspector inspector;
+    inspector.field = inspector.mixtures = field;
+    return inspector;
+}
+
 /// Points per side of a cell at which densities are taken.
 inline constexpr int kFinePoints = 4;
 

@@ -9,12 +9,11 @@ std::string wrong_value(const char* part, std::size_t i, double got) {
     return std::string(part) + " " + std::to_string(i) + ": got " + std::to_string(got);
 }
 
-/// Calls visit(relative density in the middle) for the cells of a volume's hemisphere.
-template <class Visit>
-void for_each_cell(const LobeField& field, std::uint32_t volume, Visit&& visit) {
-    const LobeMixture mixture = field.product_at(volume, Vec3f{0.0f}, {0.0f, 0.0f, 1.0f});
-    for (int cell = 0; cell < field.cells.count(); ++cell)
-        visit(relative_density(mixture, square_to_cosine_hemisphere(field.cells.point_in_cell(cell, Vec2f{0.5f}))));
+/// Relative density of the mixture of a volume, by direction.
+auto density_of(const LobeField& field, std::uint32_t volume) {
+    return [mixture = field.product_at(volume, Vec3f{0.0f}, {0.0f, 0.0f, 1.0f})](Vec3f local) {
+        return relative_density(mixture, local);
+    };
 }
 
 /// Gives the values [first, first + length) those of a volume without training samples.
@@ -130,27 +129,20 @@ std::optional<std::string> damage_of(const HostLobes& lobes) {
 }
 
 float relative_density(const LobeMixture& mixture, Vec3f local) {
-    const float cosine = max_of(local.z, 1.0e-4f);  // of the outermost points: rounding noise below
-    return mixture.pdf_sa(local) * kPi / cosine;
+    return relative_to_cosine(mixture.pdf_sa(local), local);
 }
 
 float LobeVolumeSummary::unvisited_share(std::uint32_t volume) const {
     constexpr float kDark = 0.01f;
     if (field.samples[volume] == 0) return 1.0f;
     float dark = 0.0f;
-    for_each_cell(field, volume, [&](float density) { dark += density < kDark ? 1.0f : 0.0f; });
+    for_each_cell_density(field.cells, density_of(field, volume),
+                          [&](float density) { dark += density < kDark ? 1.0f : 0.0f; });
     return dark / static_cast<float>(field.cells.count());
 }
 
 float LobeVolumeSummary::entropy(std::uint32_t volume) const {
-    float total = 0.0f;
-    for_each_cell(field, volume, [&](float density) { total += density; });
-    float bits = 0.0f;
-    for_each_cell(field, volume, [&](float density) {
-        const float p = density / total;
-        if (p > 0.0f) bits -= p * std::log2(p);
-    });
-    return bits;
+    return entropy_of_cells(field.cells, density_of(field, volume));
 }
 
 }  // namespace pl

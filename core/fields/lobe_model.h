@@ -1,6 +1,7 @@
 // Mixtures of lobes as a model of a guiding field on the host: the one description of their arrays, and all code derived from it.
 #pragma once
 
+#include <cmath>
 #include <optional>
 #include <string>
 
@@ -128,9 +129,35 @@ LobeField field_view(const FieldShape& shape, const VolumeStorage<Array>& volume
     return field;
 }
 
+/// A density relative to that of cosine sampling. `local`: its direction in the frame of the normal.
+inline float relative_to_cosine(float pdf_sa, Vec3f local) {
+    const float cosine = max_of(local.z, 1.0e-4f);  // of the outermost points: rounding noise below
+    return pdf_sa * kPi / cosine;
+}
+
 /// Density of a mixture in a direction of a volume's hemisphere, as its site samples it, relative to that of cosine sampling. `local`
 /// in the frame of the normal.
 float relative_density(const LobeMixture& mixture, Vec3f local);
+
+/// Calls visit(density(direction in the middle)) for the cells of a hemisphere.
+template <class Density, class Visit>
+void for_each_cell_density(const DirectionCells& cells, const Density& density, Visit&& visit) {
+    for (int cell = 0; cell < cells.count(); ++cell)
+        visit(density(square_to_cosine_hemisphere(cells.point_in_cell(cell, Vec2f{0.5f}))));
+}
+
+/// Of the cells of a hemisphere, bits, by their relative densities.
+template <class Density>
+float entropy_of_cells(const DirectionCells& cells, const Density& density) {
+    float total = 0.0f;
+    for_each_cell_density(cells, density, [&](float value) { total += value; });
+    float bits = 0.0f;
+    for_each_cell_density(cells, density, [&](float value) {
+        const float p = value / total;
+        if (p > 0.0f) bits -= p * std::log2(p);
+    });
+    return bits;
+}
 
 /// VolumeSummary of mixtures.
 struct LobeVolumeSummary {

@@ -2,14 +2,8 @@
 
 #include <cmath>
 
-#include "core/fields/network_layout.h"
-
 namespace pl {
 namespace {
-
-NetworkLayout layout_of(const FieldShape& shape) {
-    return NetworkLayout(static_cast<std::uint32_t>(shape.cells.count()));
-}
 
 /// A number in [-1, 1) of its own for every index.   [PCG hash: Jarzynski and Olano 2020]
 float scattered(std::size_t i) {
@@ -24,9 +18,12 @@ std::size_t network_values(const FieldShape& shape, const HostNeural& field, con
 
 }  // namespace
 
-void reset_network(const FieldShape& shape, HostNeural& field) {
+NetworkLayout layout_of(const FieldShape& shape) {
+    return NetworkLayout(static_cast<std::uint32_t>(shape.cells.count()));
+}
+
+void reset_network(const NetworkLayout& layout, HostNeural& field) {
     constexpr float kFirstFeature = 0.05f;
-    const NetworkLayout layout = layout_of(shape);
     field.weights.assign(layout.count, 0.0f);
     field.slope_mean.assign(layout.count, 0.0f);
     field.slope_square.assign(layout.count, 0.0f);
@@ -35,16 +32,16 @@ void reset_network(const FieldShape& shape, HostNeural& field) {
     // The last layer stays 0, so that an untrained network changes nothing.
     for (std::size_t i = 0; i < layout.first; ++i) field.weights[i] = kFirstFeature * scattered(i);
     const float first = std::sqrt(6.0f / static_cast<float>(kConstantInput));
-    const float second = std::sqrt(6.0f / static_cast<float>(kHidden));
+    const float second = std::sqrt(6.0f / static_cast<float>(layout.hidden));
     for (std::size_t i = layout.first; i < layout.second; ++i) field.weights[i] = first * scattered(i);
-    for (std::size_t i = layout.second; i < layout.second + kHidden * kHidden; ++i)
+    for (std::size_t i = layout.second; i < layout.second + std::size_t{layout.hidden} * layout.hidden; ++i)
         field.weights[i] = second * scattered(i);
 }
 
 HostNeural make_neural(const FieldShape& shape, std::size_t volumes) {
     HostNeural field;
     static_cast<HostTables&>(field) = make_tables(shape, volumes);
-    reset_network(shape, field);
+    reset_network(layout_of(shape), field);
     return field;
 }
 

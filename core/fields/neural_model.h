@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/fields/table_model.h"
+#include "core/kernel/guiding/network_layout.h"
 
 namespace pl {
 
@@ -19,13 +20,6 @@ struct NeuralStorage : TableStorage<Array> {
     Array<std::uint32_t> counts;  ///< by NetworkCount
 };
 using HostNeural = NeuralStorage<LargeArray>;
-
-enum NetworkCount : std::uint32_t {
-    kNetworkSteps,    ///< of gradient descent so far
-    kNetworkIsLost,   ///< 1: weights or loss were not finite, so that the tables are sampled without it; else 0
-    kNetworkVersion,  ///< kNetworkLayoutVersion of the weights
-    kNetworkCounts,
-};
 
 /// State of a network, as a session tells it.
 struct NetworkStatus {
@@ -77,8 +71,11 @@ void zip(const NeuralStorage<From>& from, To& to, Fn&& fn) {
 /// Uniform tables and a network that predicts the same light in all cells.
 HostNeural make_neural(const FieldShape& shape, std::size_t volumes);
 
-/// Gives the network the weights of make_neural() and forgets its steps.
-void reset_network(const FieldShape& shape, HostNeural& field);
+/// The network over volumes, whose outputs are the cells of a table.
+NetworkLayout layout_of(const FieldShape& shape);
+
+/// Gives the network its first weights and forgets its steps.
+void reset_network(const NetworkLayout& layout, HostNeural& field);
 
 /// Whether all arrays have the length that follows from the shape and the number of volumes.
 bool fits(const FieldShape& shape, const HostNeural& field, std::size_t volumes);

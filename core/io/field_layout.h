@@ -40,9 +40,10 @@ void transfer_tables(Stream& stream, Field& field) {
     Representation representation = representation_of(field);
     transfer(stream, representation);
     if constexpr (!std::is_const_v<Field>) {
-        if (representation > Representation::Neural)
-            stream.fail(
-                fmt::format("representation: expected 0 to 3, got {}", static_cast<std::uint32_t>(representation)));
+        if (representation > kLastRepresentation)
+            stream.fail(fmt::format("representation: expected 0 to {}, got {}",
+                                    static_cast<std::uint32_t>(kLastRepresentation),
+                                    static_cast<std::uint32_t>(representation)));
         clear_to(field, representation);
     }
     std::visit(

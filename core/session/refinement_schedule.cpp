@@ -13,9 +13,7 @@ constexpr std::uint32_t kMostRounds = 32;
 
 std::uint32_t most_rounds(const FieldSettings& settings) {
     if (settings.refine_share == 0.0f) return 0;
-    const bool has_tables =
-        settings.representation == Representation::Table || settings.representation == Representation::Neural;
-    if (!has_tables) return 0;  // refined by their updates
+    if (!has_tables(settings.representation)) return 0;  // refined by their updates
     return settings.refine_share == kRefineByRecords ? kMostRounds : kRounds;
 }
 

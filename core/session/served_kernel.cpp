@@ -20,6 +20,8 @@ KernelRange range_of(const RenderSettings& settings) {
     const Representation representation = settings.field.representation;
     if (representation == Representation::SdTree && is_served_by.template operator()<SdTreeField>()) return range;
     if (representation == Representation::Lobes && is_served_by.template operator()<LobeField>()) return range;
+    if (representation == Representation::NeuralVertex && is_served_by.template operator()<NeuralVertexField>())
+        return range;
     with_method_kernel(settings.method, settings.field.learning, settings.next_event,
                        [&]<int kEntry>() { range = TypeAt<kEntry, MethodList>::Integrator::kKernelRange; });
     return range;

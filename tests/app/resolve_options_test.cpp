@@ -74,7 +74,7 @@ TEST_CASE("wrong values name the option, the expected and the given value") {
         {{"--learning-rate", "means"},
          "--learning-rate: expected mean, forgetful, power or floor, got 'means' (nearest: 'mean')"},
         {{"--field", "sdtree"},
-         "--field: expected table, sd-tree, lobes or neural, got 'sdtree' (nearest: 'sd-tree')"},
+         "--field: expected table, sd-tree, lobes, neural or neural-vertex, got 'sdtree' (nearest: 'sd-tree')"},
         {{"--iterations", "twice"}, "--iterations: expected updates or doubling, got 'twice'"},
         {{"--iterations", "doubling"}, "--iterations doubling: expected --field sd-tree with it, got --field table"},
         {{"--field", "sd-tree", "--method", "precomputed"},
@@ -143,7 +143,8 @@ TEST_CASE("SD-trees, lobes and networks take the CPU and refuse CUDA") {
     for (const auto& [name, representation] :
          {std::pair<std::string, Representation>{"sd-tree", Representation::SdTree},
           {"lobes", Representation::Lobes},
-          {"neural", Representation::Neural}}) {
+          {"neural", Representation::Neural},
+          {"neural-vertex", Representation::NeuralVertex}}) {
         const std::vector<std::string> given{"--method", "reinforcement", "--field", name};
         const Options options = parse(render_with(given));
         CHECK(options.render.field.representation == representation);

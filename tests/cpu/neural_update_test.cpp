@@ -107,12 +107,12 @@ public:
 
 private:
     std::vector<double> logarithms(const std::vector<float>& weights) const {
-        NetworkBlock block(layout_.columns);
+        NetworkBlock block(layout_);
         Network(best_neural_kernels(), layout_, weights.data()).predict(points_, block);
         std::vector<double> values;
         for (std::size_t i = 0; i < points_.size(); ++i)
             for (std::uint32_t cell = 0; cell < kCells; ++cell)
-                values.push_back(static_cast<double>(block.logarithms[i * layout_.columns + cell]));
+                values.push_back(static_cast<double>(block.outputs[i * layout_.columns + cell]));
         return values;
     }
     const NetworkLayout& layout_;
@@ -156,12 +156,12 @@ TEST_CASE("The slopes of the network are those of its loss by finite differences
         lights.emplace_back(NetworkLoss::kCells, 20 + i);
     }
     const Network network(best_neural_kernels(), layout, weights.data());
-    NetworkBlock block(layout.columns);
+    NetworkBlock block(layout);
     network.predict(points, block);
     for (std::size_t i = 0; i < points.size(); ++i) {
         VolumeLight light = lights[i].light();
-        light.logarithms = block.logarithms.data() + i * layout.columns;
-        best_neural_kernels().slopes(light, 1.0f, block.logarithm_slopes.data() + i * layout.columns);
+        light.logarithms = block.outputs.data() + i * layout.columns;
+        best_neural_kernels().slopes(light, 1.0f, block.output_slopes.data() + i * layout.columns);
     }
     std::vector<float> slopes(layout.count);
     network.propagate(block, slopes.data() + layout.first);

@@ -168,7 +168,8 @@ bool RenderControls::is_served(const FieldSettings& field, const std::string& ba
     if (field.representation == Representation::Table || backend == "cpu") return true;
     std::string_view needs = "the SD-tree needs";
     if (field.representation == Representation::Lobes) needs = "lobes need";
-    if (field.representation == Representation::Neural) needs = "the network needs";
+    if (field.representation == Representation::Neural || field.representation == Representation::NeuralVertex)
+        needs = "the network needs";
     messages_.say(MessageLevel::Warning,
                   fmt::format("{} serves tables alone: {} the CPU", back_end_label(backend), needs));
     return false;

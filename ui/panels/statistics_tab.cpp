@@ -67,6 +67,14 @@ void draw_paths(const ViewerModel& model, const Snapshot& snapshot) {
              c.invalid_samples > 0 ? colors::kWarning : colors::kText);
 }
 
+const char* network_hint(Representation representation, bool is_lost) {
+    if (representation == Representation::NeuralVertex)
+        return is_lost ? "Its loss or weights were not finite: directions are guided by the cosine."
+                       : "Gives every vertex the mixture of lobes that guides it.";
+    return is_lost ? "Its loss or weights were not finite: tables are sampled without it."
+                   : "Predicts the light in all volumes, the prior of their tables.";
+}
+
 void draw_field(const std::optional<FieldStatus>& field) {
     if (!section("Learned field", true)) return;
     if (!field) {
@@ -87,8 +95,7 @@ void draw_field(const std::optional<FieldStatus>& field) {
                      ? std::string("lost")
                      : fmt::format("{}B, {} steps", short_number(static_cast<double>(field->network->bytes)),
                                    field->network->steps),
-                 field->network->is_lost ? "Its loss or weights were not finite: tables are sampled without it."
-                                         : "Predicts the light in all volumes, the prior of their tables.",
+                 network_hint(field->representation, field->network->is_lost),
                  field->network->is_lost ? colors::kWarning : colors::kText);
     text_row("Memory", short_number(static_cast<double>(field->bytes)) + "B");
     text_row("Passes", fmt::format("{}", field->passes), "Passes whose training samples the field has learned from.");

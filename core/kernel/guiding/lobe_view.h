@@ -13,12 +13,31 @@ inline constexpr float kCosineKappa = 2.18853f;
 /// Largest shift of a mean by parallax, in units of the distance to its light: beyond it lobes would turn around.
 inline constexpr float kMostShift = 0.9f;
 
-/// A normalized mixture, in the frame of a volume's normal.
-struct LobeMixture {
+/// A mixture of at most kCapacity lobes, in the frame of a volume's normal or of the world.
+template <std::uint32_t kCapacity>
+struct LobeMixtureOf {
     std::uint32_t count = 0;
-    VmfLobe lobes[kMostLobes];
-    float share[kMostLobes];  ///< probability of the lobe
-    float peak[kMostLobes];   ///< share times the lobe's density at its mean
+    VmfLobe lobes[kCapacity];
+    float share[kCapacity];  ///< probability of the lobe
+    float peak[kCapacity];   ///< share times the lobe's density at its mean
+
+    /// Adds a lobe of this weight times the cosine to a normal, which a lobe stands for.
+    PL_HD void add_times_cosine(const VmfLobe& lobe, float weight, Vec3f normal) {
+        const VmfProduct product = vmf_product(lobe, {normal, kCosineKappa});
+        lobes[count] = product.lobe;
+        peak[count] = weight * vmf_peak(lobe.kappa) * product.scale;
+        share[count] = peak[count] / vmf_peak(product.lobe.kappa);
+        ++count;
+    }
+    /// Divides by the sum of all shares.
+    PL_HD void normalize() {
+        float sum = 0.0f;
+        for (std::uint32_t i = 0; i < count; ++i) sum += share[i];
+        for (std::uint32_t i = 0; i < count; ++i) {
+            share[i] /= sum;
+            peak[i] /= sum;
+        }
+    }
 
     PL_HD float pdf_sa(Vec3f wi) const {
         float sum = 0.0f;
@@ -36,6 +55,7 @@ struct LobeMixture {
         return make_frame(lobe.mean).to_world(local);
     }
 };
+using LobeMixture = LobeMixtureOf<kMostLobes>;
 
 /// A unit direction in 30 bits, octahedral: to 1e-4.   [Cigolle et al. 2014, "A Survey of Efficient Representations for Independent
 /// Unit Vectors"]
@@ -94,22 +114,10 @@ struct LobeView : PlacementView, LobeArrays<ConstSpan, Span> {
     }
     /// The mixture at a point times the cosine to its normal, which a lobe stands for, normalized: a mixture again.
     PL_HD LobeMixture product_at(std::uint32_t volume, Vec3f offset, Vec3f normal) const {
-        const VmfLobe cosine{normal, kCosineKappa};
         LobeMixture mixture;
-        mixture.count = lobe_count[volume];
-        float sum = 0.0f;
-        for (std::uint32_t i = 0; i < mixture.count; ++i) {
-            const VmfLobe lobe = lobe_at(volume, i, offset);
-            const VmfProduct product = vmf_product(lobe, cosine);
-            mixture.lobes[i] = product.lobe;
-            mixture.peak[i] = weight_of(volume, i) * vmf_peak(lobe.kappa) * product.scale;
-            mixture.share[i] = mixture.peak[i] / vmf_peak(product.lobe.kappa);
-            sum += mixture.share[i];
-        }
-        for (std::uint32_t i = 0; i < mixture.count; ++i) {
-            mixture.share[i] /= sum;
-            mixture.peak[i] /= sum;
-        }
+        for (std::uint32_t i = 0; i < lobe_count[volume]; ++i)
+            mixture.add_times_cosine(lobe_at(volume, i, offset), weight_of(volume, i), normal);
+        mixture.normalize();
         return mixture;
     }
 

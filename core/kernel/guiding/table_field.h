@@ -62,6 +62,11 @@ struct TableField : TableView {
         return visits[index] == 0 ? value_at(location) : learned_radiance(*this, index);
     }
 
+    /// The cell of a direction; -1 below the horizon of the volume.
+    PL_HD std::int32_t cell_of(const Location& location, const SurfacePoint& surface, Vec3f wi) const {
+        const TableDirection<One> direction = sampler().locate(served_point(location, surface), unpack(wi));
+        return direction.cosine > 0.0f ? cells.cell_of(direction.square) : -1;
+    }
     PL_HD Entry entry_of(const Location& location, const DirectionSample& direction) const {
         if (direction.bin < 0) return {};
         return {location.volume, direction.bin};

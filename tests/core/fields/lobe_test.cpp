@@ -7,44 +7,15 @@
 #include "tests/support/catch.hpp"
 #include "tests/support/field/lobe_fixture.h"
 #include "tests/support/statistics/sampling_rule.h"
+#include "tests/support/statistics/sphere.h"
 
 using namespace pl;
 using namespace pl::test;
 
 namespace {
 
-constexpr int kFine = 512;
-
-/// The integral over the sphere of a density, by the middles of kFine x kFine equal parts.
-double integral_over_sphere(const std::function<float(Vec3f)>& density) {
-    double sum = 0.0;
-    for (int row = 0; row < kFine; ++row)
-        for (int column = 0; column < kFine; ++column) {
-            const Vec2f square = (Vec2f{column, row} + 0.5f) / static_cast<float>(kFine);
-            sum += static_cast<double>(density(square_to_sphere(square)));
-        }
-    return sum / (static_cast<double>(kUniformSpherePdf) * kFine * kFine);
-}
-
 float density_of(const VmfLobe& lobe, Vec3f wi) {
     return vmf_peak(lobe.kappa) * vmf_falloff(lobe.mean, lobe.kappa, wi);
-}
-
-/// Probabilities of the kCells x kCells parts of the sphere, each by quadrature, and counts of samples in them.
-constexpr std::size_t kCells = 16;
-std::size_t cell_of(Vec3f wi) {
-    const Vec2f square = sphere_to_square(wi);
-    return static_cast<std::size_t>(square.x * kCells) * kCells + static_cast<std::size_t>(square.y * kCells);
-}
-std::vector<double> cell_probabilities(const std::function<float(Vec3f)>& density) {
-    std::vector<double> probabilities(kCells * kCells, 0.0);
-    for (int row = 0; row < kFine; ++row)
-        for (int column = 0; column < kFine; ++column) {
-            const Vec3f wi = square_to_sphere((Vec2f{column, row} + 0.5f) / static_cast<float>(kFine));
-            probabilities[cell_of(wi)] +=
-                static_cast<double>(density(wi) / kUniformSpherePdf) / (static_cast<double>(kFine) * kFine);
-        }
-    return probabilities;
 }
 
 }  // namespace

@@ -161,8 +161,8 @@ TEST_CASE("Damaged SD-trees in files are refused, whole ones come back") {
                contains("nodes of quadtrees: expected 1 to"));
     CHECK_THAT(refused([&](LearnedField& f) { f.method = MethodId::Precomputed; }),
                contains("representation of the arrays: expected 0, got 1"));
-    CHECK_THAT(refused([&](LearnedField& f) { f.settings.representation = static_cast<Representation>(4); }),
-               contains("representation: expected 0 to 3, got 4"));
+    CHECK_THAT(refused([&](LearnedField& f) { f.settings.representation = static_cast<Representation>(5); }),
+               contains("representation: expected 0 to 4, got 5"));
 }
 
 TEST_CASE("Damaged lobes in files are refused, whole ones come back") {
@@ -216,6 +216,35 @@ TEST_CASE("Damaged networks in files are refused, whole ones come back") {
                contains("network: expected weights of layout 1, got mark of loss 2"));
     CHECK_THAT(refused([](HostNeural& neural) { neural.counts[kNetworkVersion] = 9; }), contains("got layout 9"));
     CHECK_THAT(refused([](HostNeural& neural) { neural.column_cdf[0] = 2.0f; }),
+               contains("entry 0 of the column table"));
+}
+
+TEST_CASE("Damaged networks for vertices in files are refused, whole ones come back") {
+    const TemporaryFolder folder;
+    LearnedField field = small_field();
+    field.method = MethodId::Reinforcement;
+    field.settings.representation = field.shape.representation = Representation::NeuralVertex;
+    field.field = make_field(field.shape, kVolumes, Representation::NeuralVertex);
+    std::get<HostNeuralVertex>(field.field).counts[kNetworkSteps] = 9;
+    const auto refused = [&](const std::function<void(HostNeuralVertex&)>& change) {
+        LearnedField damaged = field;
+        change(std::get<HostNeuralVertex>(damaged.field));
+        write_field(folder.path() / "field", damaged);
+        return input_error([&] { read_field(folder.path() / "field"); });
+    };
+    write_field(folder.path() / "field", field);
+    CHECK(status_of(std::get<HostNeuralVertex>(read_field(folder.path() / "field").field)).steps == 9);
+    CHECK_THAT(refused([](HostNeuralVertex& vertex) { vertex.average[2] = kNan; }),
+               contains("damaged field: average of place 2: expected a finite number, got nan"));
+    CHECK_THAT(refused([](HostNeuralVertex& vertex) { vertex.weights[3] = kInfinity; }),
+               contains("weight of place 3: expected a finite number, got inf"));
+    CHECK_THAT(refused([](HostNeuralVertex& vertex) { vertex.slope_square[1] = -1.0f; }),
+               contains("square of the slope of place 1: expected 0 or more, got -1"));
+    CHECK_THAT(refused([](HostNeuralVertex& vertex) { vertex.average.pop_back(); }),
+               contains("averages of weights: expected"));
+    CHECK_THAT(refused([](HostNeuralVertex& vertex) { vertex.counts[kNetworkIsLost] = 2; }),
+               contains("network: expected weights of layout 1, got mark of loss 2"));
+    CHECK_THAT(refused([](HostNeuralVertex& vertex) { vertex.column_cdf[0] = 2.0f; }),
                contains("entry 0 of the column table"));
 }
 

@@ -82,6 +82,11 @@ TEST_CASE("Render controls: an SD-tree is chosen on the CPU, and keeps the other
     model.render().set_field(neural);
     model.render().set_backend("cuda");
     CHECK(model.messages().toasts().back().text == "CUDA serves tables alone: the network needs the CPU");
+    neural.representation = Representation::NeuralVertex;
+    model.render().set_field(neural);
+    model.render().set_backend("cuda");
+    CHECK(model.render().wanted_backend() == "cpu");
+    CHECK(model.messages().toasts().back().text == "CUDA serves tables alone: the network needs the CPU");
     model.render().set_field({});
     model.render().set_backend("cuda");
     CHECK(model.render().wanted_backend() == "cuda");

@@ -1,0 +1,63 @@
+// A model of GuidingField on the host: one network, evaluated at every vertex, gives the mixture of lobes that guides there. The
+// tables of the radiance volumes keep the learned radiance: they teach the network, and hold irradiance, BSDF fractions and the choice
+// of lights.   [Dong et al. 2023, "Neural Parametric Mixtures for Path Guiding"]
+#pragma once
+
+#include "core/kernel/guiding/network_inputs.h"
+#include "core/kernel/guiding/table_field.h"
+#include "core/kernel/guiding/vertex_mixture.h"
+
+namespace pl {
+
+/// The volume that serves a vertex, and the mixture there in the frame of the world, which sampling and density share.
+struct NeuralVertexLocation : TableLocation {
+    VertexMixture mixture{};
+};
+
+struct NeuralVertexField : TableField {
+    using Location = NeuralVertexLocation;
+
+    VertexEvaluator evaluate = nullptr;
+    Span<const float> weights;         ///< of kVertexLayout, the running means
+    Span<const std::uint32_t> counts;  ///< by NetworkCount
+    Vec3f corner{0.0f};                ///< lowest corner of the cube that the grids divide
+    float edge = 1.0f;                 ///< of the cube, above 0
+
+    PL_HD NetworkPoint point_of(Vec3f position, Vec3f normal) const { return {(position - corner) / edge, normal}; }
+    /// Of a network that is lost: the cosine alone.
+    PL_HD VertexMixture mixture_at(Vec3f position, Vec3f normal) const {
+        if (counts[kNetworkIsLost] != 0) return cosine_mixture(normal);
+        float inputs[kInputs], outputs[kVertexColumns];
+        fill_inputs(point_of(position, normal), weights.data, inputs);
+        evaluate(weights.data, inputs, outputs);
+        return vertex_mixture(outputs, normal);
+    }
+
+    PL_HD Location locate(const SurfacePoint& surface) const {
+        const TableLocation place = TableField::locate(surface);
+        if (!place.is_served()) return {};
+        return {place, mixture_at(surface.position, surface.shading_normal)};
+    }
+    PL_HD Vec3f sample(const Location& location, const SurfacePoint&, const ScatterNumbers& numbers) const {
+        return location.mixture.sample({numbers.u.y, numbers.u.z});
+    }
+    /// The bin is the cell of the volume, which the direction trains.
+    PL_HD FieldDensity density(const Location& location, const SurfacePoint& surface, Vec3f wi) const {
+        return {location.mixture.pdf_sa(wi), cell_of(location, surface, wi)};
+    }
+    PL_HD void record(const TrainingSample<NeuralVertexField>& sample, bool learns_fraction) const {
+        TableField::record(of_table(sample), learns_fraction);
+    }
+    PL_HD void add(const TrainingSample<NeuralVertexField>& sample, bool learns_fraction) const {
+        TableField::add(of_table(sample), learns_fraction);
+    }
+    PL_HD void record_light(const LightSample<NeuralVertexField>& light) const { record_at_volume(*this, light); }
+
+private:
+    static PL_HD TrainingSample<TableField> of_table(const TrainingSample<NeuralVertexField>& sample) {
+        return {{sample.entry, sample.bsdf_ratio, sample.distance}, sample.target};
+    }
+};
+static_assert(RadianceField<NeuralVertexField>);
+
+}  // namespace pl

@@ -1,0 +1,64 @@
+// The network that is evaluated at every vertex: from the inputs of network_inputs.h to the parameters of a mixture of lobes. One
+// function for floats and for vectors of them: every unit is summed in ascending order of its inputs, so that the width changes no
+// bit.   [Dong et al. 2023, "Neural Parametric Mixtures for Path Guiding"]
+#pragma once
+
+#include "core/kernel/guiding/network_layout.h"
+
+namespace pl {
+
+inline constexpr std::uint32_t kVertexLobes = 8;
+
+/// Outputs of the network, [parameter][lobe]: by them lobes differ from those of an untrained network, see vertex_lobe().
+enum VertexParameter : std::uint32_t {
+    kLobeLogit,  ///< logarithm of its weight
+    kLobeX,      ///< of the vector whose direction is its mean
+    kLobeY,
+    kLobeZ,
+    kLobeNarrowness,  ///< logarithm of its concentration
+    kVertexParameters
+};
+inline constexpr std::uint32_t kVertexOutputs = kVertexParameters * kVertexLobes;
+inline constexpr std::uint32_t kVertexHidden = 64;
+inline constexpr NetworkLayout kVertexLayout(kVertexOutputs, kVertexHidden);
+
+/// Outputs that are computed: a multiple of any vector's width.
+inline constexpr std::uint32_t kVertexColumns = (kVertexOutputs + 15) / 16 * 16;
+static_assert(kVertexColumns <= kVertexLayout.columns);
+
+/// outputs: [kVertexColumns], from inputs: [kInputs].
+using VertexEvaluator = void (*)(const float* weights, const float* inputs, float* outputs);
+
+/// kUnits sums over `inputs`, whose weights lie `row` apart from input to input. Real: float, or a vector of floats.
+template <class Real, std::uint32_t kUnits>
+PL_INLINE void sum_units(const float* inputs, std::uint32_t count, const float* weights, std::uint32_t row,
+                         float* units) {
+    constexpr std::uint32_t kLanes = sizeof(Real) / sizeof(float);
+    constexpr std::uint32_t kAll = kUnits / kLanes;
+    constexpr std::uint32_t kVectors = kAll % 8 == 0 ? 8 : (kAll % 6 == 0 ? 6 : kAll);  // as many as registers hold
+    static_assert(kUnits % (kVectors * kLanes) == 0 && kVectors <= 8);
+    for (std::uint32_t first = 0; first < kUnits; first += kVectors * kLanes) {
+        Real sums[kVectors] = {};
+        const float* factors = weights + first;
+        for (std::uint32_t i = 0; i < count; ++i, factors += row)
+            for (std::uint32_t v = 0; v < kVectors; ++v) {
+                Real factor;
+                std::memcpy(&factor, factors + v * kLanes, sizeof factor);
+                sums[v] += inputs[i] * factor;
+            }
+        std::memcpy(units + first, sums, sizeof sums);
+    }
+}
+
+template <class Real>
+PL_INLINE void evaluate_vertex(const float* weights, const float* inputs, float* outputs) {
+    constexpr NetworkLayout kLayout = kVertexLayout;
+    float first[kVertexHidden + 1], second[kVertexHidden + 1];
+    sum_units<Real, kVertexHidden>(inputs, kConstantInput + 1, weights + kLayout.first, kVertexHidden, first);
+    activate_units(first, kVertexHidden);
+    sum_units<Real, kVertexHidden>(first, kVertexHidden + 1, weights + kLayout.second, kVertexHidden, second);
+    activate_units(second, kVertexHidden);
+    sum_units<Real, kVertexColumns>(second, kVertexHidden + 1, weights + kLayout.last, kLayout.columns, outputs);
+}
+
+}  // namespace pl
