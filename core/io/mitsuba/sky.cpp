@@ -36,7 +36,7 @@ float within(const MitsubaObject& emitter, const char* name, float standard, flo
 }
 
 /// Up and the sun in the world: z is up in the emitter's own frame, in 0.6 y.
-void place(const MitsubaObject& emitter, SkyDescription& sky) {
+void place_sun(const MitsubaObject& emitter, SkyDescription& sky) {
     glm::dmat3 to_world(emitter.transform("to_world"));
     if (emitter.is_of_version_0()) to_world = to_world * glm::dmat3({1, 0, 0}, {0, 0, -1}, {0, 1, 0});
     sky.up = unit_of(emitter, to_world[2]);
@@ -51,7 +51,7 @@ bool add_mitsuba_sky(const MitsubaObject& emitter, SceneDescription& scene) {
     const std::string type = emitter.type();
     if (type != "sunsky" && type != "sky" && type != "sun") return false;
     SkyDescription sky;
-    place(emitter, sky);
+    place_sun(emitter, sky);
     sky.turbidity = within(emitter, "turbidity", sky.turbidity, kLeastTurbidity, kMostTurbidity);
     sky.albedo = emitter.color("albedo").value_or(sky.albedo);
     if (!glm::all(glm::greaterThanEqual(sky.albedo, glm::vec3(0.0f))) ||
