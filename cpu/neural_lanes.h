@@ -233,8 +233,13 @@ float attribute(const MixtureLight& light, MixtureShares& shares) {
     return logarithm.total();
 }
 
+/// Of this file alone, which a template of the header is not.
+void evaluate_in_lanes(const float* weights, const float* inputs, float* outputs) {
+    evaluate_vertex<LaneFloat>(weights, inputs, outputs);
+}
+
 constexpr NeuralKernels neural_kernels_named(const char* isa) {
-    return {isa, multiply, slopes, predict, weigh, descend, attribute, evaluate_vertex<LaneFloat>};
+    return {isa, multiply, slopes, predict, weigh, descend, attribute, evaluate_in_lanes};
 }
 
 }  // namespace

@@ -191,12 +191,14 @@ TEST_CASE("The number of volumes with lobes or a network is what the budget hold
         RenderSettings settings = settings_of(represented, scene);
         settings.field.volumes = 0;
         settings.field.bins = 16;
-        settings.field.budget_megabytes = 0.3;
+        // The network at every vertex alone has 0.47.
+        const double megabytes = represented.representation == Representation::NeuralVertex ? 0.8 : 0.3;
+        settings.field.budget_megabytes = megabytes;
         Session session = make_session(scene, settings, 2);
         render_passes(session, 20);
         const FieldStatus status = *session.field_status(MethodId::Reinforcement);
         CHECK((status.added_volumes == 0 || represented.representation != Representation::Lobes));
-        CHECK(static_cast<double>(status.bytes) < 0.3e6);
+        CHECK(static_cast<double>(status.bytes) < 1.0e6 * megabytes);
     }
 }
 
