@@ -119,9 +119,10 @@ TEST_CASE("Guiding choice: a warm-up ends early with a clear gain or a loss") {
         CHECK(*choice.gain() == Approx(1.0 / (variance * 1.5)));
         return std::pair(rounds, choice.pays());
     };
-    CHECK(rounds_with(0.4, learning) == std::pair(8u, true));   // a gain of 1.67
-    CHECK(rounds_with(0.7, learning) == std::pair(8u, true));   // 0.95: fields get better
-    CHECK(rounds_with(0.8, learning) == std::pair(8u, false));  // 0.83
+    CHECK(rounds_with(0.4, learning) == std::pair(8u, true));    // a gain of 1.67
+    CHECK(rounds_with(0.7, learning) == std::pair(8u, true));    // 0.95: fields get better
+    CHECK(rounds_with(0.9, learning) == std::pair(12u, false));  // 0.74: it may still
+    CHECK(rounds_with(1.0, learning) == std::pair(8u, false));   // 0.67
     CHECK(rounds_with(1.2, learning) == std::pair(8u, false));
     CHECK(rounds_with(1.2, terms_of()) ==
           std::pair(12u, true));  // 0.56: of a field that is still young, nothing is certain
@@ -144,7 +145,7 @@ TEST_CASE("Guiding choice: a young field that finds light where the baseline doe
     const auto outcome = [](std::uint32_t lit_of_guided, const GuidingTerms& terms) {
         GuidingChoice choice;
         while (choice.is_warming_up()) {
-            PassCounters guided = counters_of(0.8);  // a gain of 0.83
+            PassCounters guided = counters_of(1.0);  // a gain of 0.67
             guided.zero_contribution_paths = 100 - lit_of_guided;
             PassCounters baseline = counters_of(1.0);
             baseline.zero_contribution_paths = 90;

@@ -23,7 +23,7 @@ TEST_CASE("Motion preview: light samples without a learned field, else its map, 
 }
 
 TEST_CASE("Motion preview: a map that is being precomputed is neither shown nor lost") {
-    SessionBench bench;
+    SessionBench bench(16, 4);
     bench.session.advance({MethodId::Precomputed, View::Beauty});
     REQUIRE(bench.session.field_status(MethodId::Precomputed)->records > 0);
     CHECK(MotionPreview::choose(bench.session, kDefault, Preview::None) == Preview::None);

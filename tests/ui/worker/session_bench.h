@@ -10,8 +10,8 @@ struct SessionBench {
     std::shared_ptr<FakeControl> control = std::make_shared<FakeControl>();
     Session session;
 
-    explicit SessionBench(int size = 16)
-        : session(std::make_shared<FakeBackend>(control), small_scene(), settings_of(size)) {}
+    explicit SessionBench(int size = 16, int probes = 1)
+        : session(std::make_shared<FakeBackend>(control), small_scene(), settings_of(size, probes)) {}
 
     void render(FilmSlot slot, std::uint32_t passes) {
         const std::uint32_t target = session.passes(slot) + passes;
@@ -19,13 +19,14 @@ struct SessionBench {
     }
 
 private:
-    static RenderSettings settings_of(int size) {
+    static RenderSettings settings_of(int size, int probes) {
         RenderSettings settings{.next_event = false};
         settings.width = size;
         settings.height = size;
         settings.camera = small_scene()->camera;
         settings.field.volumes = 16;
         settings.field.bins = 16;
+        settings.field.precompute_samples = probes;
         return settings;
     }
 };
