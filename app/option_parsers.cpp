@@ -10,6 +10,7 @@
 #include "app/choices.h"
 #include "app/parse_values.h"
 #include "core/base/error.h"
+#include "core/base/square_number.h"
 #include "core/scene/needed_effects.h"
 
 namespace pl {
@@ -25,11 +26,6 @@ std::vector<std::string> split_at_commas(const std::string& text) {
         start = end + 1;
     }
     return items;
-}
-
-bool is_square(int n) {
-    const int side = static_cast<int>(std::lround(std::sqrt(n)));
-    return side * side == n;
 }
 
 std::vector<std::string> method_names() {

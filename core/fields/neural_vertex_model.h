@@ -17,10 +17,8 @@ using HostNeuralVertex = NeuralVertexStorage<LargeArray>;
 template <class Fn>
 constexpr void for_each_vertex_array(Fn&& fn) {
     for_each_network_array(fn);
-    fn(NetworkSpec{"averages of weights", "average", ValidRange::Finite, [](auto& n) -> auto& { return n.average;
-}
-}  // namespace pl
-);
+    const auto average = [](auto& network) -> auto& { return network.average; };
+    fn(NetworkSpec{"averages of weights", "average", ValidRange::Finite, average});
 }
 
 /// Calls fn(array of `from`, array of `to`) for every array; `to` is const if fn only reads it.

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "core/base/square_number.h"
 #include "core/kernel/base/math.h"
 #include "core/kernel/guiding/network_layout.h"
 
@@ -15,11 +16,6 @@ namespace {
 
 /// A frame of a longer vector would give directions outside of the direction cells.
 bool is_unit(const Vec3f& v) { return std::fabs(glm::dot(v, v) - 1.0f) < 1.0e-4f; }
-
-bool is_square(int n) {
-    const std::int64_t side = std::lround(std::sqrt(static_cast<double>(n)));
-    return side * side == n;
-}
 
 bool is_bsdf_fraction(float x) { return x >= kMinBsdfFraction && x <= kMaxBsdfFraction; }
 
