@@ -182,13 +182,26 @@ struct LightTreeRows {
     const float* learned;  ///< LearnedLights::cdf of all points, one after the other; null: nothing is learned
 };
 
-/// For each of a VertexGroup the first number of its LearnedLights::cdf in LightTreeRows::learned.
+/// For each of 16 points the first number of its LearnedLights::cdf in LightTreeRows::learned.
 struct alignas(64) LearnedLightsGroup {
     static constexpr std::int32_t kNone = -1;  ///< nothing is learned
 
     std::int32_t first[kGroupSize];
 
     LearnedLightsGroup() { std::fill_n(first, kGroupSize, kNone); }
+
+    /// `all`: LightTreeRows::learned.
+    void set(std::uint32_t lane, LearnedLights learned, const float* all) {
+        first[lane] = learned.empty() ? kNone : static_cast<std::int32_t>(learned.cdf - all);
+    }
+};
+
+/// 16 lights of a tree that paths have hit.
+struct alignas(64) LightHitGroup {
+    VectorGroup from;  ///< the origins of the segments that end there
+    std::uint32_t light[kGroupSize] = {};
+    LearnedLightsGroup learned;       ///< of the origins
+    float pdf_area[kGroupSize] = {};  ///< the result: see light_pdf_area()
 };
 
 /// A light sample for each of a VertexGroup: members as in ChosenLight, LightPoint and DirectLight, and the results of weighing it.
@@ -253,6 +266,8 @@ struct LaneKernels {
     /// Chooses a light for every vertex by a light tree, for sample_chosen_lights().
     void (*choose_by_tree)(const LightTreeRows& tree, const VertexGroup* vertices, const LearnedLightsGroup* learned,
                            LightSampleGroup* samples, std::uint32_t groups);
+    /// The densities of light sampling at lights that were hit.
+    void (*find_light_densities)(const LightTreeRows& tree, LightHitGroup* hits, std::uint32_t groups);
     void (*sample_chosen_lights)(const LightRows& lights, const VertexGroup* vertices, LightSampleGroup* samples,
                                  std::uint32_t groups);
     /// Weighs the light samples by multiple importance sampling, with the densities in `directions`. Clears pdf_sa of those that

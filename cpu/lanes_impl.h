@@ -87,6 +87,10 @@ void choose_by_tree(const LightTreeRows& tree, const VertexGroup* vertices, cons
     choose_by_tree_in_groups(tree, vertices, learned, samples, groups);
 }
 
+void find_light_densities(const LightTreeRows& tree, LightHitGroup* hits, std::uint32_t groups) {
+    find_densities_of_groups(tree, hits, groups);
+}
+
 void sample_lights(const LightRows& lights, const VertexGroup* vertices, LightSampleGroup* samples,
                    std::uint32_t groups) {
     for_light_lanes(lights, vertices, groups,
@@ -118,10 +122,11 @@ bool has_samples(const TableUpdateView& field, std::uint32_t volume) { return an
 bool update_table(const TableUpdateView& field, std::uint32_t volume) { return update_table_in_lanes(field, volume); }
 
 constexpr LaneKernels lane_kernels_named(const char* name) {
-    return {name,          find_closest,   find_occluded, find_closest_wide, find_occluded_wide, draw,
-            draw_vertices, find_points,    read_cells,    find_nearest,      sample_rows,        sample_guided,
-            weigh_guided,  sample_lambert, weigh_lambert, sample_lights,     choose_by_tree,     sample_chosen_lights,
-            weigh_lights,  scatter,        has_samples,   update_table};
+    return {name,          find_closest,   find_occluded,        find_closest_wide,    find_occluded_wide,
+            draw,          draw_vertices,  find_points,          read_cells,           find_nearest,
+            sample_rows,   sample_guided,  weigh_guided,         sample_lambert,       weigh_lambert,
+            sample_lights, choose_by_tree, find_light_densities, sample_chosen_lights, weigh_lights,
+            scatter,       has_samples,    update_table};
 }
 
 }  // namespace

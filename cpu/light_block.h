@@ -20,11 +20,9 @@ requires(learns_lights<F, M>) struct LearnedLightsBlock<F, M> {
     explicit LearnedLightsBlock(const M& method) : method_(method) {}
     const float* numbers() const { return method_.field.light_cdf.data; }
     void find(const VertexBlock<F, M>& block) {
-        for (std::uint32_t i = 0; i < block.count(); ++i) {
-            const LearnedLights learned = learned_lights<F>(method_, block.vertex(i)).learned();
-            const std::ptrdiff_t first = learned.empty() ? LearnedLightsGroup::kNone : learned.cdf - numbers();
-            groups[i / kGroupSize].first[i % kGroupSize] = static_cast<std::int32_t>(first);
-        }
+        for (std::uint32_t i = 0; i < block.count(); ++i)
+            groups[i / kGroupSize].set(i % kGroupSize, learned_lights<F>(method_, block.vertex(i)).learned(),
+                                       numbers());
     }
 
     LearnedLightsGroup groups[kBlockGroups];

@@ -75,6 +75,9 @@ public:
     void set_ray(std::uint32_t index, const Ray& ray) { rays_[index / kGroupSize].set(index % kGroupSize, ray); }
     Ray ray(std::uint32_t index) const { return rays_[index / kGroupSize].get(index % kGroupSize); }
     void set_hit(std::uint32_t index, const Hit& hit) { hits_[index / kGroupSize].set(index % kGroupSize, hit); }
+    std::uint32_t primitive(std::uint32_t index) const {
+        return hits_[index / kGroupSize].primitive[index % kGroupSize];
+    }
     Hit hit(std::uint32_t index) const { return hits_[index / kGroupSize].get(index % kGroupSize); }
     void set_occluded(std::uint32_t index, bool occluded) {
         const auto bit = static_cast<OcclusionMask>(1u << (index % kGroupSize));

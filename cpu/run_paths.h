@@ -14,6 +14,7 @@
 #include "cpu/direction_block.h"
 #include "cpu/guided_memory.h"
 #include "cpu/light_block.h"
+#include "cpu/light_hits.h"
 #include "cpu/path_source.h"
 #include "cpu/ray_batch.h"
 #include "cpu/solid_hits.h"
@@ -103,6 +104,9 @@ private:
 
     void extend() {
         shadow_count_ = 0;
+        if constexpr (F.has(Feature::ManyLights)) {
+            if (light_hits_.wanted()) light_hits_.find(rays_, states_, active_);
+        }
         const auto end_of = [this](std::uint32_t first) { return std::min(first + kPathBlock, active_); };
         if constexpr (TableGuided<M>) begin_lookups(0, 0, end_of(0));
         for (std::uint32_t first = 0; first < active_; first += kPathBlock) {
@@ -146,6 +150,23 @@ private:
         }
     };
 
+    /// The surface that path i has hit, see SurfaceAhead.
+    struct Ahead {
+        PathBatch& batch;
+        std::uint32_t i;
+        const Hit& hit;
+
+        void find(SurfacePoint& surface) const {
+            ::new (static_cast<void*>(&surface)) SurfacePoint(batch.surface_at(i, hit));  // in place, as in start()
+        }
+        float light_pdf_area(const SurfacePoint& surface) const {
+            if constexpr (F.has(Feature::ManyLights)) {
+                if (batch.light_hits_.wanted()) return batch.light_hits_.pdf_area(i, hit.primitive);
+            }
+            return SurfaceAhead<F, M>{batch.setup_.scene, hit, batch.states_[i]}.light_pdf_area(surface);
+        }
+    };
+
     bool samples_lights() const { return kSamplesLights && setup_.path.next_event != 0; }
 
     void shade(std::uint32_t i) {
@@ -154,10 +175,7 @@ private:
         const Hit hit = rays_.hit(i);
         VertexSlot slot;
         ScatterPoint<F, M>& from = slot.in(vertices_);
-        const auto find_surface = [&](SurfacePoint& surface) {
-            ::new (static_cast<void*>(&surface)) SurfacePoint(surface_at(i, hit));  // in place, as in start()
-        };
-        statuses_[i] = shade_hit<F, M>(context_, hit, find_surface, states_[i], {out, from});
+        statuses_[i] = shade_hit<F, M>(context_, hit, Ahead{*this, i, hit}, states_[i], {out, from});
         if (statuses_[i] == PathStatus::Continues) statuses_[i] = leave(i, hit, from, out);
         guided_.record(sample);
     }
@@ -319,6 +337,7 @@ private:
     LaneKernels kernels_ = best_lane_kernels();
     VertexBlock<F, M> vertices_;
     [[no_unique_address]] LightBlock<F, M> lights_{context_, setup_.lights};
+    [[no_unique_address]] LightHits<F, M> light_hits_{context_, setup_.lights, setup_.batch_paths};
     DirectionBlock<F, M> directions_{setup_.path, method_};
     ScatteredGroup scattered_[kBlockGroups];
     GuidedMemory<M> guided_;

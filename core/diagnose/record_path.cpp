@@ -119,7 +119,8 @@ private:
         if (is_black(emission.radiance)) return emission;
         State alone = before;
         alone.radiance = Vec3f{0.0f};
-        emission.weight = add_emission(scene_, context_.settings, surface, emission.radiance, alone);
+        emission.weight =
+            add_emission(context_, SurfaceAhead<kAll, M>{scene_, hit, before}, surface, emission.radiance, alone);
         emission.contribution = alone.radiance;
         if (samples_lights(before))
             emission.light_pdf_sa =

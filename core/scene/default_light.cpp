@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/kernel/base/math.h"
+#include "core/scene/sky_map.h"
 #include "core/scene/up_axis.h"
 
 namespace pl {
@@ -114,21 +115,9 @@ std::string light_text(const SceneDescription& scene) {
 }
 
 void add_default_light(SceneDescription& scene) {
-    constexpr std::uint32_t kHeight = 64;
-    EnvironmentMapDescription map{
-        .source = {}, .width = 2 * kHeight, .height = kHeight, .rotation_deg = 0.0f, .texels = {}};
-    map.texels.reserve(std::size_t{map.width} * map.height);
     const Sky sky(glm::dvec3(scene.up), sun_direction(scene));
-    for (std::uint32_t row = 0; row < map.height; ++row) {
-        const double colatitude = kHalfTurn * (row + 0.5) / map.height;
-        for (std::uint32_t column = 0; column < map.width; ++column) {
-            const double longitude = 2.0 * kHalfTurn * ((column + 0.5) / map.width - 0.5);
-            map.texels.push_back(
-                rounded(sky.radiance({std::sin(colatitude) * std::sin(longitude), std::cos(colatitude),
-                                      -std::sin(colatitude) * std::cos(longitude)})));
-        }
-    }
-    scene.environment_map = std::move(map);
+    scene.environment_map =
+        make_sky_map(64, [&](const glm::dvec3& direction) { return rounded(sky.radiance(direction)); });
     scene.default_light = true;
 }
 

@@ -146,6 +146,8 @@ struct TriangleDescription {
     std::uint32_t material = 0;
     glm::uvec3 uv{kNoUv, kNoUv, kNoUv};  ///< indices into SceneDescription::uvs, or kNoUv
 
+    bool has_uvs() const { return uv.x != kNoUv && uv.y != kNoUv && uv.z != kNoUv; }
+
     static constexpr std::uint32_t kNoNormal = 0xffffffffu;
     static constexpr std::uint32_t kNoUv = 0xffffffffu;
 };

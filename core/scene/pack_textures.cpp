@@ -87,18 +87,13 @@ private:
     std::vector<std::uint32_t> image_of_;
 };
 
-bool has_uvs(const TriangleDescription& t) {
-    return t.uv.x != TriangleDescription::kNoUv && t.uv.y != TriangleDescription::kNoUv &&
-           t.uv.z != TriangleDescription::kNoUv;
-}
-
 void pack_uvs(const SceneDescription& scene, HostScene& packed) {
     packed.uvs = scene.uvs;
     const auto origin = static_cast<std::uint32_t>(packed.uvs.size());
     packed.uvs.emplace_back(0.0f);
     packed.triangle_uvs.reserve(scene.triangles.size());
     for (const TriangleDescription& t : scene.triangles) {
-        const glm::uvec3 uv = has_uvs(t) ? t.uv : glm::uvec3{origin};
+        const glm::uvec3 uv = t.has_uvs() ? t.uv : glm::uvec3{origin};
         packed.triangle_uvs.push_back({uv.x, uv.y, uv.z});
     }
 }

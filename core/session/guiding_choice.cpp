@@ -51,6 +51,10 @@ constexpr std::uint32_t kRoundsOfTrust = 4;
 /// after the pass behind the first if a warm-up has measured the baseline before.
 constexpr std::uint32_t kFirstTrial = kFewestBeforeVariance;
 constexpr std::uint32_t kSecondTrial = kFirstTrial + 2;
+/// Where a warm-up has given up guiding, guided paths get a second look before this pass, by this share of a pass: the few that it had
+/// may have been bright by chance.
+constexpr std::uint32_t kSecondLook = 4;
+constexpr double kPassesOfSecondLook = 0.15;
 /// Number of a pass before which a trial of guided paths may be over that of the last one.
 constexpr double kTrialSpacing = 1.25;
 /// Samples of the baseline that tell its variance well enough.
@@ -58,9 +62,21 @@ constexpr double kEnoughSamples = 131072.0;
 /// Weight of the guided passes before the newest one: their variances fall while a field learns, and are noisy.
 constexpr double kKept = 0.8;
 
+/// Time that guiding takes at a vertex, over that by a table: rounded from docs/representations.md, on door and cornell.
+double guidance_over_table(Representation representation) {
+    switch (representation) {
+    case Representation::Table:
+    case Representation::Neural: return 1.0;
+    case Representation::SdTree: return 3.0;
+    case Representation::Lobes: return 9.0;
+    case Representation::NeuralVertex: return 13.0;
+    }
+    return 1.0;
+}
+
 }  // namespace
 
-PathCosts PathCosts::of(std::size_t triangles, FeatureSet features) {
+PathCosts PathCosts::of(std::size_t triangles, FeatureSet features, Representation representation) {
     constexpr std::size_t kFewTriangles = 64;  // tested one by one
     PathCosts costs{.segment = triangles <= kFewTriangles ? 70.0 : 250.0, .guidance = 50.0};
     if (features.has(Feature::NextEventEstimation)) {
@@ -71,6 +87,7 @@ PathCosts PathCosts::of(std::size_t triangles, FeatureSet features) {
         costs.segment += 150.0;
         costs.guidance += 110.0;
     }
+    costs.guidance *= guidance_over_table(representation);
     return costs;
 }
 
@@ -133,6 +150,7 @@ Trial GuidingChoice::trial_before(std::uint32_t pass) const {
         (pass == kFirstTrial && baseline_trials_ == 0) || (pass == kSecondTrial && baseline_trials_ == 1);
     const bool is_affordable = spent_ + trial_cost_ <= kExploration * static_cast<double>(pass);
     if (!pays()) {
+        if (takes_second_look()) return {.is_guided = pass >= kSecondLook, .passes = kPassesOfSecondLook};
         const bool is_due = is_affordable && (!last_trial_ || pass >= kTrialSpacing * *last_trial_);
         const double passes = (kExploration * static_cast<double>(pass) - spent_) / guided_cost();
         return is_due ? Trial{.is_guided = true, .passes = passes} : Trial{};
@@ -143,6 +161,7 @@ Trial GuidingChoice::trial_before(std::uint32_t pass) const {
 
 void GuidingChoice::measure_trial(std::uint32_t pass, const PassCounters& guided, const PassCounters& baseline,
                                   const GuidingTerms& terms) {
+    if (takes_second_look()) guided_ = {};
     last_trial_ = pass;
     if (baseline.paths > 0) ++baseline_trials_;
     baseline_.add(baseline, terms.costs.segment);
@@ -209,6 +228,8 @@ double GuidingChoice::least_gain() const {
     const bool is_open = learned_ < kYoung || is_fast || finds_hidden_light();
     return is_open ? kLeastGainOfYoung : kLeastGainOfLearning;
 }
+
+bool GuidingChoice::takes_second_look() const { return !pays() && rounds_ > 0 && !last_trial_; }
 
 bool GuidingChoice::decides_after(std::uint32_t pass) const {
     return pass >= (rounds_ > 0 ? kFirstTrial : kSecondTrial + 1);

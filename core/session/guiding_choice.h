@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <optional>
 
+#include "core/fields/field_shape.h"
 #include "core/kernel/base/features.h"
 #include "core/kernel/integrator/path.h"
 
@@ -24,8 +25,8 @@ struct PathCosts {
     double segment = 0.0;   ///< of any path: tracing and shading
     double guidance = 0.0;  ///< of a guided path's segment, besides
 
-    /// By the scene alone, so that every back end makes the same choice.
-    static PathCosts of(std::size_t triangles, FeatureSet features);
+    /// By the scene and the representation of the field alone, so that every back end makes the same choice.
+    static PathCosts of(std::size_t triangles, FeatureSet features, Representation representation);
 
     double guided_segment() const { return segment + guidance; }
 };
@@ -101,8 +102,8 @@ public:
     /// Whether passes are guided from now on, as far as is known.
     bool pays() const { return belief_.value_or(true); }
     /// The trial that is due before the pass of this number, of the method that passes do not use: two of the baseline before the first
-    /// decision of a film; else as few as take kExploration of the time of all passes, the warm-up included. Those of guided paths
-    /// become rare and large: many small ones would keep a device waiting.
+    /// decision of a film, one of guided paths soon after a warm-up that gave up guiding; else as few as take kExploration of the time
+    /// of all passes, the warm-up included. Those of guided paths become rare and large: many small ones would keep a device waiting.
     Trial trial_before(std::uint32_t pass) const;
     void measure_trial(std::uint32_t pass, const PassCounters& guided, const PassCounters& baseline,
                        const GuidingTerms& terms);
@@ -144,6 +145,8 @@ private:
     double least_gain() const;
     /// Whether the guided rounds of a warm-up have measured a clear loss.
     bool loses_clearly() const;
+    /// Whether the next trial is that after a warm-up which gave up guiding.
+    bool takes_second_look() const;
     bool decides_after(std::uint32_t pass) const;
     void decide();
 

@@ -32,7 +32,8 @@ bool Session::warms_up(FilmSlot slot) const { return chooses_guiding(slot) && tr
 std::uint32_t Session::trial_step() const { return std::clamp(pixel_count() / kTrialPaths, 1u, kLargestStep); }
 
 GuidingTerms Session::guiding_terms(FilmSlot slot) const {
-    return {.costs = PathCosts::of(scene_.packed()->triangles.size(), needed_features(slot)),
+    return {.costs = PathCosts::of(scene_.packed()->triangles.size(), needed_features(slot),
+                                   representation_of(settings_.field, slot.method)),
             .pixels = static_cast<double>(pixel_count()),
             .volumes = static_cast<double>(placement_.count()),
             .learns = info_of(slot.method).learns};

@@ -104,10 +104,44 @@ TreeComparison compare_tree(const SceneView& scene, const ChoosesLights& method,
     return result;
 }
 
+constexpr std::uint32_t kVolumes = 20;
+
+/// Densities of random lights for random points, of which most have a learned choice, in more groups than take turns at once.
+void compare_densities(const SceneView& scene, const ChoosesLights& method, const LaneKernels& kernels) {
+    const LightTable table(scene);
+    std::vector<LightHitGroup> hits(2 * kBlockGroups + 1);
+    std::vector<float> expected;
+    Uniforms random(8);
+    for (std::uint32_t i = 0; i < hits.size() * kGroupSize; ++i) {
+        const Light& light = scene.lights[random.below(scene.lights.count)];
+        const SurfacePoint on_light =
+            make_surface_point<kMany>(scene, light.primitive, Vec3f{1.0f / 3.0f}, Vec3f{0.0f, 1.0f, 0.0f});
+        const Vec3f from = random_point(scene, random).surface.position;
+        ChoosesLights::Vertex vertex;
+        if (random.below(3) != 0) vertex.volume = static_cast<std::int32_t>(random.below(kVolumes));
+        const LearnedLights learned = method.learned_lights(vertex);
+        LightHitGroup& group = hits[i / kGroupSize];
+        group.from.set(i % kGroupSize, from);
+        group.light[i % kGroupSize] = table.light_of(light.primitive);
+        CHECK(table.is_light(light.primitive));
+        group.learned.set(i % kGroupSize, learned, method.field.light_cdf.data);
+        expected.push_back(light_pdf_area<kMany>(scene, from, on_light, learned));
+    }
+    const LightTree& tree = scene.light_tree;
+    kernels.find_light_densities(
+        {tree.nodes.data, tree.of_light.data, tree.clusters.data, tree.clusters.count, method.field.light_cdf.data},
+        hits.data(), static_cast<std::uint32_t>(hits.size()));
+    int positive = 0;
+    for (std::uint32_t i = 0; i < expected.size(); ++i) {
+        REQUIRE(hits[i / kGroupSize].pdf_area[i % kGroupSize] == expected[i]);
+        positive += expected[i] > 0.0f ? 1 : 0;
+    }
+    CHECK(positive > static_cast<int>(expected.size()) / 2);
+}
+
 }  // namespace
 
-TEST_CASE("Lights of a tree are sampled as by one path alone, at all surfaces") {
-    constexpr std::uint32_t kVolumes = 20;
+TEST_CASE("Lights of a tree are sampled, and weighed where they are hit, as by one path alone") {
     for (const int count : {60, 3000}) {
         const HostScene scene = room_of_lights(
             count, {},
@@ -124,6 +158,7 @@ TEST_CASE("Lights of a tree are sampled as by one path alone, at all surfaces") 
             CHECK(result.lit > 200);
             CHECK(result.layered > 30);
             CHECK(result.learned > 100);
+            compare_densities(view, method, kernels);
         }
     }
 }

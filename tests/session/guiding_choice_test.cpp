@@ -102,11 +102,21 @@ TEST_CASE("Guiding choice: the cost of a path counts segments and guidance") {
 
 TEST_CASE("Guiding choice: more triangles, lobes and light samples make guidance a smaller share") {
     const auto share = [](std::size_t triangles, FeatureSet features) {
-        const PathCosts costs = PathCosts::of(triangles, features);
+        const PathCosts costs = PathCosts::of(triangles, features, Representation::Table);
         return costs.guidance / costs.segment;
     };
     CHECK(share(12, {}) > share(100, {}));
     CHECK(share(12, {}) > share(12, features(Feature::NextEventEstimation)));
+}
+
+TEST_CASE("Guiding choice: what takes more time at a vertex has to gain more") {
+    const auto guided = [](Representation representation) {
+        return PathCosts::of(12, features(Feature::NextEventEstimation), representation).guided_segment();
+    };
+    CHECK(guided(Representation::Neural) == guided(Representation::Table));
+    CHECK(guided(Representation::SdTree) > guided(Representation::Table));
+    CHECK(guided(Representation::Lobes) > guided(Representation::SdTree));
+    CHECK(guided(Representation::NeuralVertex) > guided(Representation::Lobes));
 }
 
 TEST_CASE("Guiding choice: a warm-up ends early with a clear gain or a loss") {
@@ -316,6 +326,20 @@ TEST_CASE("Guiding choice: without a gain trials cost a few per cent of the time
         for (std::size_t i = 1; i < passes.guided_trials.size(); ++i)
             CHECK(passes.guided_trials[i] >= 1.25 * passes.guided_trials[i - 1]);
     }
+}
+
+TEST_CASE("Guiding choice: guided paths that were bright by chance in a warm-up have a second look") {
+    GuidingChoice choice;
+    warm_up(choice, [](std::uint32_t) { return 7.0; });
+    REQUIRE_FALSE(choice.pays());
+    GuidingChoice unlucky = choice;
+    const Passes after = run(unlucky, 6, [](std::uint32_t) { return 0.4; });
+    CHECK(after.guided_trials == std::vector<std::uint32_t>{4});
+    CHECK(after.guided == std::vector<std::uint32_t>{4, 5});
+    CHECK(*unlucky.gain() == Approx(1.0 / (0.4 * 1.5)));  // without the paths of the warm-up
+    const Passes loses = run(choice, 20, [](std::uint32_t) { return 7.0; });
+    CHECK(loses.guided_trials == std::vector<std::uint32_t>{4});
+    CHECK(loses.guided.empty());
 }
 
 TEST_CASE("Guiding choice: a field that has become better is used again") {

@@ -43,10 +43,6 @@ std::uint32_t add_luminance(const MitsubaObject& bitmap, TextureContent content,
     });
 }
 
-bool has_uvs(const TriangleDescription& t) {
-    return glm::all(glm::notEqual(t.uv, glm::uvec3(TriangleDescription::kNoUv)));
-}
-
 /// How much u and v rise along a triangle, per length in the world, and its area.
 struct UvDensity {
     double u = 0.0, v = 0.0, area = 0.0;
@@ -76,7 +72,7 @@ MeanDensity mean_density(const SceneDescription& scene, std::uint32_t material) 
     UvDensity sums;
     double squares = 0.0;
     for (const TriangleDescription& t : scene.triangles) {
-        if (t.material != material || !has_uvs(t)) continue;
+        if (t.material != material || !t.has_uvs()) continue;
         const UvDensity density = density_of(scene, t);
         sums.u += density.area * density.u;
         sums.v += density.area * density.v;
@@ -126,7 +122,7 @@ void transform_uvs(SceneDescription& scene, std::uint32_t material, const glm::d
     // Corners of other materials may share a coordinate: the transformed ones are new.
     std::map<std::uint32_t, std::uint32_t> moved;
     for (TriangleDescription& t : scene.triangles) {
-        if (t.material != material || !has_uvs(t)) continue;
+        if (t.material != material || !t.has_uvs()) continue;
         for (int k = 0; k < 3; ++k) {
             const auto [known, is_new] = moved.try_emplace(t.uv[k], static_cast<std::uint32_t>(scene.uvs.size()));
             if (is_new) {

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "core/io/sky/hosek_wilkie_data.h"
+#include "core/scene/sky_map.h"
 
 namespace pl {
 namespace {
@@ -126,23 +127,14 @@ glm::vec3 SkyModel::sun_radiance() const {
 }
 
 void add_sky(const SkyDescription& sky, SceneDescription& scene) {
-    constexpr std::uint32_t kHeight = 256;
     const SkyModel model(sky);
-    EnvironmentMapDescription map{.source = scene.source, .width = 2 * kHeight, .height = kHeight, .texels = {}};
-    map.texels.reserve(std::size_t{map.width} * map.height);
-    for (std::uint32_t row = 0; row < map.height; ++row) {
-        const double colatitude = std::numbers::pi * (row + 0.5) / map.height;
-        for (std::uint32_t column = 0; column < map.width; ++column) {
-            const double longitude = 2.0 * std::numbers::pi * ((column + 0.5) / map.width - 0.5);
-            const glm::vec3 radiance =
-                model.radiance(glm::vec3(std::sin(colatitude) * std::sin(longitude), std::cos(colatitude),
-                                         -std::sin(colatitude) * std::cos(longitude)));
-            map.texels.emplace_back(rounded(static_cast<double>(radiance.x)),
-                                    rounded(static_cast<double>(radiance.y)),
-                                    rounded(static_cast<double>(radiance.z)));
-        }
+    if (sky.sky_scale > 0.0f) {
+        scene.environment_map = make_sky_map(256, [&](const glm::dvec3& direction) {
+            const glm::dvec3 radiance(model.radiance(glm::vec3(direction)));
+            return glm::vec3(rounded(radiance.x), rounded(radiance.y), rounded(radiance.z));
+        });
+        scene.environment_map.source = scene.source;
     }
-    if (sky.sky_scale > 0.0f) scene.environment_map = std::move(map);
     scene.sun = {.direction = sky.sun_direction, .radiance = model.sun_radiance(), .angle_deg = sky.sun_angle};
 }
 

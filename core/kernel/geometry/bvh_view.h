@@ -85,7 +85,8 @@ struct BoxRay {
 ///   - A component of the direction below 2^-40 D is set to that, which keeps its inverse finite and moves the point at t by less
 ///     than 2^-40 (R + 18 u R).
 /// The test then passes if s >= u (22 R + 3 A) (1 + 8 u) + 2^-39 R. The rest of 32 R + 4 A is for the rounding of s and R.
-/// (The bound does not cover triangles without area, which loaders remove: of rays aimed at them about one in 1e6 differs.)
+/// (The bound does not cover triangles thinner than a few roundings of their corners: all their edge functions may be rounding errors,
+/// and the triangle test then accept rays that pass beside them, one in 1e6 of those aimed there.)
 template <class Real>
 PL_INLINE Real box_slack(const Real& reach, const Real& origin) {
     return kRoundoff * (32.0f * reach + 4.0f * origin);

@@ -1,15 +1,13 @@
-// The integrator as steps on one path: begin, shade (once per hit), sample a light, continue (roulette), scatter, connect (once per
-// shadow ray). Pure functions of
-// their arguments, so that a loop over one path (trace_path.h), a batch of paths (cpu/run_paths.h) and a GPU thread
-// (cuda/kernels/trace.cuh) call the same code. Drivers of several paths call the steps apart, so that they can sample
-// directions, and evaluate densities towards lights, for many paths at once.
+// The integrator as steps on one path: begin, shade (once per hit), sample a light (light_sample.h), continue (roulette), scatter
+// (scatter.h), connect (once per shadow ray). Pure functions of their arguments, so that a loop over one path (trace_path.h), a batch
+// of paths (cpu/run_paths.h) and a GPU thread (cuda/kernels/trace.cuh) call the same code. Drivers of several paths call the steps
+// apart, so that they can sample directions, and evaluate densities of directions and of lights, for many paths at once.
 #pragma once
 
 #include "core/kernel/film/vertex_sequence.h"
 #include "core/kernel/integrator/environment.h"
-#include "core/kernel/integrator/medium.h"
+#include "core/kernel/integrator/light_sample.h"
 #include "core/kernel/integrator/roulette.h"
-#include "core/kernel/integrator/scatter.h"
 #include "core/kernel/scene/camera.h"
 #include "core/kernel/shading/lights.h"
 
@@ -82,113 +80,35 @@ PL_HD inline PathState<F, M> begin_path(const Camera& camera, const PathSettings
     return begin_path<F, M>(camera, grid, pixel, pixel_start(settings, pixel, grid.sample));
 }
 
-/// Adds the emission of the surface hit to the path's estimator, weighted where the last vertex sampled lights. Returns the
-/// weight.
+/// The surface at the end of a path's segment, as shade_hit() asks for it. A driver of several paths has a class of its own, which may
+/// know the results for many paths at once. Lambdas instead would not be inlined into the largest kernels of a device.
 template <FeatureSet F, class M>
-PL_HD inline float add_emission(const SceneView& scene, const PathSettings& settings, const SurfacePoint& surface,
+struct SurfaceAhead {
+    const SceneView& scene;
+    const Hit& hit;
+    const PathState<F, M>& state;
+
+    /// Sets the surface point in its place: the wide loads of a copy would wait for the narrow stores before them.
+    PL_HD_INLINED void find(SurfacePoint& surface) const {
+        surface = make_surface_point<F>(scene, hit, -state.ray.direction);
+    }
+    /// See pl::light_pdf_area(), for the origin of the segment. The surface emits light.
+    PL_HD float light_pdf_area(const SurfacePoint& surface) const {
+        return pl::light_pdf_area<F>(scene, state.ray.origin, surface, state.lights.learned());
+    }
+};
+
+/// Adds the emission of the surface hit to the path's estimator, weighted where the last vertex sampled lights. Returns the
+/// weight. `ahead`: see shade_hit().
+template <FeatureSet F, class M, class Ahead>
+PL_HD inline float add_emission(const PathContext<M>& context, const Ahead& ahead, const SurfacePoint& surface,
                                 Vec3f emitted, PathState<F, M>& state) {
-    const float weight = direction_weight(settings, state, [&] {
-        return light_pdf_sa<F>(scene, state.ray.origin, surface, state.ray.direction, state.lights.learned());
+    const float weight = direction_weight(context.settings, state, [&] {
+        return on_light_pdf_sa(context.scene, ahead.light_pdf_area(surface), state.ray.origin, surface,
+                               state.ray.direction);
     });
     state.radiance += weight * (state.throughput * emitted);
     return weight;
-}
-
-/// A light sample that contributes if nothing occludes the light, before its MIS weight is known.
-struct UnweightedLight {
-    Ray ray;                             ///< the shadow ray
-    Vec3f wi{0.0f};                      ///< unit, towards the light
-    float pdf_sa = 0.0f;                 ///< of light sampling; 0: the sample cannot contribute
-    Vec3f contribution{0.0f};            ///< times pdf_sa, without the weight; so are the next two
-    Vec3f reflected{0.0f};               ///< LightEstimate::reflected
-    float irradiance = 0.0f;             ///< LightEstimate::irradiance
-    std::uint32_t cluster = kNoCluster;  ///< LightEstimate::cluster
-};
-
-/// Weights of the light that a path receives at a vertex, before the roulette there.
-struct ReceivedWeights {
-    Vec3f throughput{1.0f};
-    Vec3f chain{1.0f};                 ///< of the specular chain that ends at the vertex; with lobes only
-    std::uint32_t medium = kNoMedium;  ///< around the path there
-};
-template <FeatureSet F, class M>
-PL_HD inline ReceivedWeights received_weights(const PathState<F, M>& state) {
-    ReceivedWeights weights{.throughput = state.throughput, .medium = medium_of(state)};
-    if constexpr (F.has_any(kLobeFeatures)) weights.chain = state.chain.weight;
-    return weights;
-}
-
-/// The reflection at a vertex of a light sample that can contribute, through the shadow ray `ray`.
-template <FeatureSet F, class M>
-PL_HD inline UnweightedLight reflect_light(const ScatterPoint<F, M>& from, const DirectLight& sample, const Ray& ray,
-                                           const ReceivedWeights& weights) {
-    const Vec3f reflectance = from.bsdf.eval(from.surface, sample.wi, sample.cos_i);
-    UnweightedLight light{.ray = ray, .wi = sample.wi, .pdf_sa = sample.pdf_sa};
-    light.cluster = sample.cluster;
-    light.contribution = weights.throughput * reflectance * sample.emitted;
-    light.reflected = reflectance * sample.emitted;
-    light.irradiance = rms(sample.emitted) * (kInvPi * sample.cos_i);
-    if constexpr (F.has_any(kLobeFeatures)) {
-        // The radiance of a specular chain is that of its scattered directions.
-        light.reflected = from.bsdf.is_specular() ? Vec3f{0.0f} : weights.chain * light.reflected;
-    }
-    return light;
-}
-
-/// The reflection at a vertex of a light sample, through the glass around the path.
-template <FeatureSet F, Method M>
-PL_HD_INLINED UnweightedLight unweighted_light(const PathContext<M>& context, const ScatterPoint<F, M>& from,
-                                               DirectLight sample, const ReceivedWeights& weights) {
-    if (!(sample.pdf_sa > 0.0f)) return {};
-    const Ray ray = shadow_ray_to<F>(from.surface, sample);
-    if constexpr (kTracksMedium<F>) {
-        const std::uint32_t medium = medium_towards(from.surface, from.bsdf, sample.wi, weights.medium);
-        sample.emitted *= shadow_transmittance(context.scene, medium, ray);
-    }
-    return reflect_light(from, sample, ray, weights);
-}
-
-/// Samples a light at a vertex, by the numbers `u`.
-template <FeatureSet F, Method M>
-PL_HD_INLINED UnweightedLight sample_light(const PathContext<M>& context, const ScatterPoint<F, M>& from, Vec4f u,
-                                           const ReceivedWeights& weights) {
-    const LearnedLights learned = learned_lights<F>(context.method, from.vertex).learned();
-    return unweighted_light(context, from, sample_direct_light<F>(context.scene, from.surface, from.bsdf, u, learned),
-                            weights);
-}
-
-/// Weighs a light sample by multiple importance sampling. `scatter_pdf_sa`: of its direction, see scatter_pdf_sa(). `shadow` comes
-/// in cleared; `shadow.wanted` stays false if the sample cannot contribute.
-template <FeatureSet F, Method M>
-PL_HD_INLINED void weigh_light(const M& method, const typename M::Vertex& vertex, const UnweightedLight& light,
-                               float scatter_pdf_sa, PathState<F, M>& state, ShadowRequest<M>& shadow) {
-    LightEstimate estimate;
-    if (light.pdf_sa > 0.0f) {
-        const float weight = balance_weight(light.pdf_sa, scatter_pdf_sa) / light.pdf_sa;
-        shadow.ray = light.ray;
-        shadow.contribution = light.contribution * weight;
-        shadow.wanted = true;
-        estimate = {light.reflected * weight, light.irradiance * weight, light.cluster};
-    }
-    shadow.light = method.light_sampled(state.memory, vertex, estimate);
-}
-
-/// Weighs a light sample at a vertex.
-template <FeatureSet F, Method M>
-PL_HD_INLINED void weigh_light(const M& method, const ScatterPoint<F, M>& from, const UnweightedLight& light,
-                               PathState<F, M>& state, ShadowRequest<M>& shadow) {
-    const float pdf_sa = light.pdf_sa > 0.0f ? scatter_pdf_sa(method, from, light.wi) : 0.0f;
-    weigh_light<F>(method, from.vertex, light, pdf_sa, state, shadow);
-}
-
-/// Samples a light at a vertex, if the settings ask for it.
-template <FeatureSet F, Method M>
-PL_HD_INLINED void request_light(const PathContext<M>& context, const ScatterPoint<F, M>& from, Vec4f u,
-                                 PathState<F, M>& state, ShadowRequest<M>& shadow) {
-    if constexpr (F.has(Feature::NextEventEstimation)) {
-        if (context.settings.next_event == 0) return;
-        weigh_light(context.method, from, sample_light(context, from, u, received_weights(state)), state, shadow);
-    }
 }
 
 /// Calls the method's observe() for the surface hit. Returns the method's data of the vertex.
@@ -249,21 +169,20 @@ PL_HD_INLINED PathStatus continue_path(const PathContext<M>& context, const Hit&
 }
 
 /// Shades the end of the path's segment: adds emission and calls the observe() of the method. Returns whether the path reaches a
-/// vertex where it may go on. `find_surface(surface)` is called once if there is a hit, and sets the surface point: in its place, since
-/// the wide loads of a copy would wait for the narrow stores before them.
-template <FeatureSet F, Method M, class FindSurface>
-PL_HD_INLINED PathStatus shade_hit(const PathContext<M>& context, const Hit& hit, const FindSurface& find_surface,
+/// vertex where it may go on. `ahead` has the members of SurfaceAhead; find() is called once if there is a hit.
+template <FeatureSet F, Method M, class Ahead>
+PL_HD_INLINED PathStatus shade_hit(const PathContext<M>& context, const Hit& hit, const Ahead& ahead,
                                    PathState<F, M>& state, const ShadeOutput<F, M>& out) {
     ++out.counters.segments;
     absorb_segment(context.scene, hit, state);
     if (!hit.found()) return shade_miss(context, state, out);
     const SceneView& scene = context.scene;
-    find_surface(out.from.surface);
+    ahead.find(out.from.surface);
     const SurfacePoint& surface = out.from.surface;
     const Bsdf<F> bsdf = make_bsdf<F>(scene, surface, hit_weights(hit), -state.ray.direction);
     const Vec3f emitted = emitted_at<F>(scene, surface, hit_weights(hit));
     float direction_share = 1.0f;
-    if (!is_black(emitted)) direction_share = add_emission(scene, context.settings, surface, emitted, state);
+    if (!is_black(emitted)) direction_share = add_emission(context, ahead, surface, emitted, state);
 
     const Observation observation{
         .emitted = emitted, .albedo = bsdf.albedo(), .direction_share = direction_share, .distance = hit.t};
@@ -278,18 +197,6 @@ PL_HD_INLINED PathStatus shade_hit(const PathContext<M>& context, const Hit& hit
     out.from.vertex = vertex;
     return PathStatus::Continues;
 }
-
-/// The surface point at a hit, for shade_hit(). A class: a lambda is not inlined into the largest kernels of a device.
-template <FeatureSet F>
-struct SurfaceAtHit {
-    const SceneView& scene;
-    const Hit& hit;
-    const Ray& ray;
-
-    PL_HD_INLINED void operator()(SurfacePoint& surface) const {
-        surface = make_surface_point<F>(scene, hit, -ray.direction);
-    }
-};
 
 /// Adds a light sample whose shadow ray is not occluded.
 template <FeatureSet F, Method M>

@@ -20,7 +20,7 @@ template <FeatureSet F, Method M>
 PL_HD_INLINED PathStatus shade_segment(const PathContext<M>& context, const Hit& hit, PathState<F, M>& state,
                                        SegmentEnd<F, M>& end, PathCounters& counters) {
     end.numbers = draw_vertex_numbers<F>(context.settings, state);
-    return shade_hit<F, M>(context, hit, SurfaceAtHit<F>{context.scene, hit, state.ray}, state,
+    return shade_hit<F, M>(context, hit, SurfaceAhead<F, M>{context.scene, hit, state}, state,
                            {{end.sample, counters}, end.from});
 }
 

@@ -48,20 +48,27 @@ PL_HD inline std::uint32_t light_of(const SceneView& scene, std::uint32_t primit
                       [&](std::uint32_t light) { return scene.lights[light].primitive >= primitive; });
 }
 
-/// Density per steradian of light sampling at `from` for the direction `wi` that hits `on_light`. `learned`: of the point `from`.
-template <FeatureSet F = FeatureSet{}>
-PL_HD inline float light_pdf_sa(const SceneView& scene, Vec3f from, const SurfacePoint& on_light, Vec3f wi,
-                                [[maybe_unused]] LearnedLights learned = {}) {
+/// Density per unit area of uniform samples on the light at `on_light`, times the probability that light sampling at `from` chooses this
+/// light. `learned`: of the point `from`.
+template <FeatureSet F>
+PL_HD inline float light_pdf_area(const SceneView& scene, [[maybe_unused]] Vec3f from, const SurfacePoint& on_light,
+                                  [[maybe_unused]] LearnedLights learned) {
     if constexpr (F.has(Feature::ManyLights)) {
         if (!scene.light_tree.empty()) {
             const std::uint32_t light = light_of(scene, on_light.primitive);
             if (light >= scene.lights.count || scene.lights[light].primitive != on_light.primitive) return 0.0f;
-            const float probability = light_probability(scene.light_tree, light, from, learned);
-            return on_light_pdf_sa(scene, probability * scene.light_tree.of_light[light].pdf_area, from, on_light,
-                                   wi);
+            return light_probability(scene.light_tree, light, from, learned) *
+                   scene.light_tree.of_light[light].pdf_area;
         }
     }
-    return on_light_pdf_sa(scene, light_pdf_area(scene, scene.materials[on_light.material]), from, on_light, wi);
+    return light_pdf_area(scene, scene.materials[on_light.material]);
+}
+
+/// Density per steradian of light sampling at `from` for the direction `wi` that hits `on_light`. `learned`: of the point `from`.
+template <FeatureSet F = FeatureSet{}>
+PL_HD inline float light_pdf_sa(const SceneView& scene, Vec3f from, const SurfacePoint& on_light, Vec3f wi,
+                                LearnedLights learned = {}) {
+    return on_light_pdf_sa(scene, light_pdf_area<F>(scene, from, on_light, learned), from, on_light, wi);
 }
 
 /// A surface point that lights are sampled for: its position, and the origin of rays that leave it. Near lights are seen from the
