@@ -254,9 +254,17 @@ def stained_glass():
     return scene(content, eye=(0.4, 1.7, 3.4), target=(0, 0.5, 0)).replace('type="path"', 'type="volpath"')
 
 
-def clear_sky():
-    return ('<emitter type="sunsky"><float name="turbidity" value="4"/><vector name="sun_direction" x="0.6" y="0.7" z="0.4"/>'
+def clear_sky(sun='<vector name="sun_direction" x="0.6" y="0.7" z="0.4"/>'):
+    return (f'<emitter type="sunsky"><float name="turbidity" value="4"/>{sun}'
             '<transform name="to_world"><rotate x="1" angle="-90"/></transform><float name="sun_scale" value="0.02"/></emitter>')
+
+
+def dated_sky():
+    """A February morning in Reykjavik."""
+    whole = {"year": 2012, "month": 2, "day": 29}
+    real = {"hour": 11, "minute": 20, "second": 30, "latitude": 64.15, "longitude": -21.94, "timezone": 0}
+    return clear_sky("".join(f'<integer name="{name}" value="{value}"/>' for name, value in whole.items()) +
+                     "".join(f'<float name="{name}" value="{value}"/>' for name, value in real.items()))
 
 
 MIRROR = '<bsdf type="conductor"><string name="material" value="none"/></bsdf>'

@@ -34,6 +34,8 @@ MITSUBA = [
          32, 128, ((-0.002, 0.002),) * 3, "Mitsuba spreads n texels of a map over n - 1 intervals"),
     Case("clear-sky", lambda folder: xml.outside(xml.clear_sky(), WHITE, xml.diffuse(xml.RED)), DIFFUSE, 32, 128,
          ((-0.002, 0.004),) * 3, "ours is a map whose texels blur the horizon by 0.7 degrees"),
+    Case("dated-sky", lambda folder: xml.outside(xml.dated_sky(), WHITE, xml.diffuse(xml.RED)), DIFFUSE, 32, 128,
+         ((-0.002, 0.004),) * 3, "ours is a map whose texels blur the horizon by 0.7 degrees"),
     Case("textured", xml.textured, DIFFUSE, 32, 64),
     Case("mask", xml.masked, DIFFUSE, 32, 96),
     Case("vertex-colors", xml.vertex_colored, DIFFUSE, 32, 64),

@@ -1,26 +1,19 @@
 #include "core/io/mitsuba/sky.h"
 
-#include <array>
 #include <cmath>
 #include <string>
 
 #include <fmt/format.h>
 
 #include "core/io/sky/sky_model.h"
+#include "core/io/sky/sun_position.h"
 
 namespace pl {
 namespace {
 
-/// Towards the sun where neither direction nor date is given, on a July afternoon in Tokyo; z is up.
-constexpr glm::dvec3 kStandardSun{0.0509, 0.6934, 0.7188};
-
-bool has_date(const MitsubaObject& emitter) {
-    constexpr std::array<const char*, 9> kNames = {"year",   "month",     "day",      "hour",    "minute",
-                                                   "second", "longitude", "latitude", "timezone"};
-    for (const char* name : kNames)
-        if (emitter.property(name)) return true;
-    return false;
-}
+/// Years that are accepted; sun_towards() is exact for those from 1999 to 2015.
+constexpr int kFirstYear = 1900;
+constexpr int kLastYear = 2100;
 
 glm::vec3 unit_of(const MitsubaObject& emitter, const glm::dvec3& direction) {
     const double length = glm::length(direction);
@@ -35,14 +28,41 @@ float within(const MitsubaObject& emitter, const char* name, float standard, flo
     return value;
 }
 
-/// Up and the sun in the world: z is up in the emitter's own frame, in 0.6 y.
+SunTime time_of(const MitsubaObject& emitter) {
+    SunTime time;
+    const auto whole = [&](const char* name, int& value, int low, int high) {
+        value = static_cast<int>(
+            within(emitter, name, static_cast<float>(value), static_cast<float>(low), static_cast<float>(high)));
+    };
+    const auto real = [&](const char* name, double& value, float low, float high) {
+        if (emitter.property(name)) value = static_cast<double>(within(emitter, name, 0.0f, low, high));
+    };
+    whole("year", time.year, kFirstYear, kLastYear);
+    whole("month", time.month, 1, 12);
+    whole("day", time.day, 1, 31);
+    real("hour", time.hour, 0.0f, 24.0f);
+    real("minute", time.minute, 0.0f, 60.0f);
+    real("second", time.second, 0.0f, 60.0f);
+    real("latitude", time.latitude, -90.0f, 90.0f);
+    real("longitude", time.longitude, -180.0f, 180.0f);
+    real("timezone", time.timezone, -15.0f, 15.0f);
+    return time;
+}
+
+/// Up and the sun in the world: z is up in the emitter's own frame, and x to the south and y to the west of a date; in 0.6 y is up, x
+/// to the east and z to the south.
 void place_sun(const MitsubaObject& emitter, SkyDescription& sky) {
-    glm::dmat3 to_world(emitter.transform("to_world"));
-    if (emitter.is_of_version_0()) to_world = to_world * glm::dmat3({1, 0, 0}, {0, 0, -1}, {0, 1, 0});
-    sky.up = unit_of(emitter, to_world[2]);
-    const auto given = emitter.point("sun_direction");
-    sky.sun_direction = unit_of(emitter, given ? glm::dvec3(*given) : to_world * kStandardSun);
-    if (!given && has_date(emitter)) emitter.note("the sun is not placed by date and time, but as without them");
+    const glm::dmat3 to_world(emitter.transform("to_world"));
+    const bool is_old = emitter.is_of_version_0();
+    sky.up = unit_of(emitter, to_world[is_old ? 1 : 2]);
+    if (const auto given = emitter.point("sun_direction")) {
+        sky.sun_direction = unit_of(emitter, glm::dvec3(*given));
+        return;
+    }
+    const glm::dvec3 sun = sun_towards(time_of(emitter));
+    const glm::dvec3 local = is_old ? glm::dvec3{sun.x, sun.z, -sun.y} : glm::dvec3{-sun.y, -sun.x, sun.z};
+    sky.sun_direction = unit_of(emitter, to_world * local);
+    if (!(sun.z > 0.0)) emitter.note("the sun is below the horizon: its sky is black");
 }
 
 }  // namespace

@@ -54,11 +54,30 @@ TEST_CASE("mitsuba sky: in 0.6 y is up, and sky and sun may be emitters of their
     CHECK(two.sun.radiance == glm::vec3(0.0f));
 }
 
-TEST_CASE("mitsuba sky: without a direction the sun stands on a July afternoon, dates are told") {
-    const SceneDescription scene = under("<emitter type=\"sunsky\"/>");
-    CHECK(scene.sun.direction.z == Approx(0.7188f).epsilon(1e-3));
-    CHECK(is_told(under("<emitter type=\"sunsky\"><integer name=\"month\" value=\"1\"/></emitter>"),
-                  "not placed by date and time"));
+TEST_CASE("mitsuba sky: without a direction the sun stands where place, date and time put it") {
+    // x is to the south and y to the west.
+    const glm::vec3 afternoon = under("<emitter type=\"sunsky\"/>").sun.direction;
+    CHECK(glm::length(afternoon - glm::vec3(0.0514f, 0.6918f, 0.7203f)) < 1e-3f);
+    const auto at_hour = [](const char* hour) {
+        return under(
+            std::string(
+                "<emitter type=\"sunsky\"><integer name=\"month\" value=\"1\"/><float name=\"hour\" value=\"") +
+            hour + "\"/></emitter>");
+    };
+    const glm::vec3 winter = at_hour("11.7").sun.direction;
+    CHECK(winter.x > 0.8f);
+    CHECK(winter.z == Approx(0.53f).margin(0.02));  // 32 degrees
+    CHECK_FALSE(is_told(at_hour("11.7"), "horizon"));
+    const SceneDescription night = at_hour("23");
+    CHECK(is_told(night, "the sun is below the horizon: its sky is black"));
+    CHECK(night.sun.radiance == glm::vec3(0.0f));
+}
+
+TEST_CASE("mitsuba sky: in 0.6 x is to the east of a date and z to the south") {
+    const TemporaryFolder folder;
+    const std::string text = "<scene version=\"0.6.0\">" + kSquare + "<emitter type=\"sunsky\"/></scene>";
+    const glm::vec3 sun = load_scene(folder.write("s.xml", text).string(), "").sun.direction;
+    CHECK(glm::length(sun - glm::vec3(-0.6918f, 0.7203f, 0.0514f)) < 1e-3f);
 }
 
 TEST_CASE("mitsuba sky: values out of range are refused with their place") {
@@ -66,6 +85,8 @@ TEST_CASE("mitsuba sky: values out of range are refused with their place") {
                contains("s.xml:2: 'turbidity': expected a number from 1 to 10, got 11"));
     CHECK_THAT(refusal(kSquare + "<emitter type=\"sunsky\"><float name=\"sky_scale\" value=\"-1\"/></emitter>"),
                contains("'sky_scale'"));
+    CHECK_THAT(refusal(kSquare + "<emitter type=\"sunsky\"><integer name=\"month\" value=\"13\"/></emitter>"),
+               contains("'month': expected a number from 1 to 12, got 13"));
     CHECK_THAT(refusal(kSquare + "<emitter type=\"sunsky\"><rgb name=\"albedo\" value=\"2\"/></emitter>"),
                contains("'albedo': expected a color within [0, 1]"));
     CHECK_THAT(refusal(kSquare + "<emitter type=\"sunsky\"><vector name=\"sun_direction\" x=\"0\" y=\"0\" "
