@@ -114,9 +114,8 @@ private:
             const LightTree& tree = context_.scene.light_tree;
             if (!tree.empty()) {
                 learned_.find(block);
-                const LightTreeRows rows{tree.nodes.data, tree.of_light.data, tree.clusters.data, tree.clusters.count,
-                                         learned_.numbers()};
-                kernels_.choose_by_tree(rows, block.groups(), learned_.groups, samples_, block.group_count());
+                kernels_.choose_by_tree(rows_of(tree, learned_.numbers()), block.groups(), learned_.groups, samples_,
+                                        block.group_count());
                 return kernels_.sample_chosen_lights(lights, block.groups(), samples_, block.group_count());
             }
         }

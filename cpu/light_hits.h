@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "cpu/light_block.h"
-#include "cpu/ray_batch.h"
 
 namespace pl {
 
@@ -29,10 +28,8 @@ public:
             if (primitive == kNoPrimitive || !lights_->is_light(primitive)) continue;
             if (states[path].direction_pdf_sa > 0.0f) add(path, primitive, states[path]);
         }
-        const LightTree& tree = context_.scene.light_tree;
-        kernels_.find_light_densities(
-            {tree.nodes.data, tree.of_light.data, tree.clusters.data, tree.clusters.count, learned_.numbers()},
-            hits_.data(), group_count(count_));
+        kernels_.find_light_densities(rows_of(context_.scene.light_tree, learned_.numbers()), hits_.data(),
+                                      group_count(count_));
         for (std::uint32_t i = 0; i < count_; ++i)
             pdf_area_[paths_[i]] = hits_[i / kGroupSize].pdf_area[i % kGroupSize];
     }

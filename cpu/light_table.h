@@ -8,6 +8,11 @@
 
 namespace pl {
 
+/// `learned`: see LightTreeRows.
+inline LightTreeRows rows_of(const LightTree& tree, const float* learned) {
+    return {tree.nodes.data, tree.of_light.data, tree.clusters.data, tree.clusters.count, learned};
+}
+
 class LightTable {
 public:
     LightTable() = default;

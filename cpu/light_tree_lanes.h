@@ -47,6 +47,12 @@ protected:
         probability_ = broadcast(1.0f);
         active_ = lanes;
     }
+    /// The nodes of active lanes, of which next_ is read; the root for others.
+    PL_INLINE LaneInt arrive() {
+        const LaneInt node = select(active_, node_, LaneInt{});
+        next_ = read(node, offsetof(LightNode, next));
+        return node;
+    }
     PL_INLINE LaneInt read(const LaneInt& node, std::size_t offset) const {
         return Words<LightNode>(tree_->nodes, node).integer(offset);
     }
@@ -143,8 +149,7 @@ public:
 
     /// Goes one level down, in the lanes that have not arrived.
     PL_INLINE void advance() {
-        const LaneInt node = select(active_, node_, LaneInt{});
-        next_ = read(node, offsetof(LightNode, next));
+        const LaneInt node = arrive();
         active_ &= ~select(to_light_, read(node, offsetof(LightNode, is_leaf)) != 0,
                            read(node, offsetof(LightNode, cluster)) != kNoClusterLane);
         if (!is_under_way()) return;
@@ -207,8 +212,7 @@ public:
     }
     PL_INLINE void advance() {
         // The probability by the tree ends at the root of the cluster, where another begins.
-        const LaneInt node = select(active_, node_, LaneInt{});
-        next_ = read(node, offsetof(LightNode, next));
+        const LaneInt node = arrive();
         const LaneInt ends = active_ & has_learned_ & (read(node, offsetof(LightNode, cluster)) != kNoClusterLane);
         of_cluster_ = select(ends, probability_, of_cluster_);
         probability_ = select(ends, broadcast(1.0f), probability_);

@@ -127,10 +127,8 @@ void compare_densities(const SceneView& scene, const ChoosesLights& method, cons
         group.learned.set(i % kGroupSize, learned, method.field.light_cdf.data);
         expected.push_back(light_pdf_area<kMany>(scene, from, on_light, learned));
     }
-    const LightTree& tree = scene.light_tree;
-    kernels.find_light_densities(
-        {tree.nodes.data, tree.of_light.data, tree.clusters.data, tree.clusters.count, method.field.light_cdf.data},
-        hits.data(), static_cast<std::uint32_t>(hits.size()));
+    kernels.find_light_densities(rows_of(scene.light_tree, method.field.light_cdf.data), hits.data(),
+                                 static_cast<std::uint32_t>(hits.size()));
     int positive = 0;
     for (std::uint32_t i = 0; i < expected.size(); ++i) {
         REQUIRE(hits[i / kGroupSize].pdf_area[i % kGroupSize] == expected[i]);

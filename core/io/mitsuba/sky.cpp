@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <string>
+#include <type_traits>
 
 #include <fmt/format.h>
 
@@ -11,9 +12,9 @@
 namespace pl {
 namespace {
 
-/// Years that are accepted; sun_towards() is exact for those from 1999 to 2015.
-constexpr int kFirstYear = 1900;
-constexpr int kLastYear = 2100;
+/// Years that are accepted. The error of sun_towards() is known for those from 1999 to 2015.
+constexpr float kFirstYear = 1900.0f;
+constexpr float kLastYear = 2100.0f;
 
 glm::vec3 unit_of(const MitsubaObject& emitter, const glm::dvec3& direction) {
     const double length = glm::length(direction);
@@ -30,22 +31,19 @@ float within(const MitsubaObject& emitter, const char* name, float standard, flo
 
 SunTime time_of(const MitsubaObject& emitter) {
     SunTime time;
-    const auto whole = [&](const char* name, int& value, int low, int high) {
-        value = static_cast<int>(
-            within(emitter, name, static_cast<float>(value), static_cast<float>(low), static_cast<float>(high)));
+    const auto read = [&](const char* name, auto& value, float low, float high) {
+        using Value = std::remove_reference_t<decltype(value)>;
+        if (emitter.property(name)) value = static_cast<Value>(within(emitter, name, 0.0f, low, high));
     };
-    const auto real = [&](const char* name, double& value, float low, float high) {
-        if (emitter.property(name)) value = static_cast<double>(within(emitter, name, 0.0f, low, high));
-    };
-    whole("year", time.year, kFirstYear, kLastYear);
-    whole("month", time.month, 1, 12);
-    whole("day", time.day, 1, 31);
-    real("hour", time.hour, 0.0f, 24.0f);
-    real("minute", time.minute, 0.0f, 60.0f);
-    real("second", time.second, 0.0f, 60.0f);
-    real("latitude", time.latitude, -90.0f, 90.0f);
-    real("longitude", time.longitude, -180.0f, 180.0f);
-    real("timezone", time.timezone, -15.0f, 15.0f);
+    read("year", time.year, kFirstYear, kLastYear);
+    read("month", time.month, 1.0f, 12.0f);
+    read("day", time.day, 1.0f, 31.0f);
+    read("hour", time.hour, 0.0f, 24.0f);
+    read("minute", time.minute, 0.0f, 60.0f);
+    read("second", time.second, 0.0f, 60.0f);
+    read("latitude", time.latitude, -90.0f, 90.0f);
+    read("longitude", time.longitude, -180.0f, 180.0f);
+    read("timezone", time.timezone, -15.0f, 15.0f);
     return time;
 }
 
