@@ -138,14 +138,12 @@ public:
     }
 
     PassCounters precompute(const PrecomputeRequest& request) override {
-        return precompute_part(request, kToTheLast);
-    }
-    PassCounters precompute_part(const PrecomputeRequest& request, std::uint32_t end_probe) override {
-        return launch(kProbeKernels, request.features,
-                      ProbePass{.setup = make_setup(request.path, {request.first_probe, end_probe}, request.stop),
-                                .tracer = *tracer_,
-                                .field = std::get<TableField>(learned_field(request.method)),
-                                .stratum = {request.sample, request.strata_side}});
+        return launch(
+            kProbeKernels, request.features,
+            ProbePass{.setup = make_setup(request.path, {request.first_probe, request.end_probe}, request.stop),
+                      .tracer = *tracer_,
+                      .field = std::get<TableField>(learned_field(request.method)),
+                      .stratum = {request.sample, request.strata_side}});
     }
 
     void change_pending(MethodId method, const std::function<void(PendingSums)>& change) override {

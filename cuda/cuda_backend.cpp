@@ -94,10 +94,7 @@ public:
     }
 
     PassCounters run_pass(const PassRequest& request) override;
-    PassCounters precompute(const PrecomputeRequest& request) override {
-        return precompute_part(request, kToTheLast);
-    }
-    PassCounters precompute_part(const PrecomputeRequest& request, std::uint32_t end_probe) override;
+    PassCounters precompute(const PrecomputeRequest& request) override;
     void change_pending(MethodId method, const std::function<void(PendingSums)>& change) override;
     void settle_when_stopped() override { launcher_.settle_when_stopped(); }
     void update_field(MethodId method) override;
@@ -243,13 +240,13 @@ void CudaBackend::refine_launch(const PassRequest& request, PathRange range, con
     launch(kEmissionKernels[features], one_thread_each(range.end - range.first), stream_, "refine_film", setup);
 }
 
-PassCounters CudaBackend::precompute_part(const PrecomputeRequest& request, std::uint32_t end_probe) {
+PassCounters CudaBackend::precompute(const PrecomputeRequest& request) {
     const ProbePaths paths{.field = std::get<TableField>(learned_field(request.method)),
                            .stratum = {request.sample, request.strata_side}};
     const auto kernel = kProbeKernels[covering_set(request.features)];
     return launcher_.run(
         {.sample = request.sample, .stream = request.path.stream}, probe_size_,
-        {request.first_probe, std::min(end_probe, probe_count(paths.field))}, request.stop, request.path,
+        {request.first_probe, std::min(request.end_probe, probe_count(paths.field))}, request.stop, request.path,
         [&](PathRange) { launch_paths(kernel, request.path, ProbeMethod{}, paths); }, [](PathRange) {});
 }
 

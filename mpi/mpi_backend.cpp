@@ -110,13 +110,9 @@ public:
         return lead(command, payload);
     }
     PassCounters precompute(const PrecomputeRequest& request) override {
-        return precompute_part(request, kToTheLast);
-    }
-    PassCounters precompute_part(const PrecomputeRequest& request, std::uint32_t end_probe) override {
         if (request.stop != nullptr && *request.stop) return {};
         Payload payload{.stop = request.stop};
-        RankCommand command{
-            .order = Order::Precompute, .method = request.method, .probes = request, .end_probe = end_probe};
+        RankCommand command{.order = Order::Precompute, .method = request.method, .probes = request};
         command.probes.stop = nullptr;
         return lead(command, payload);
     }

@@ -80,7 +80,7 @@ PassCounters RankWork::run(const RankCommand& command, Payload& payload) {
     case Order::WritePixels: write_pixels(command, payload); break;
     case Order::GatherFilm: gather_film(command.slot); break;
     case Order::Pass: run_pass(command.pass, payload); break;
-    case Order::Precompute: precompute(command.probes, command.end_probe, payload); break;
+    case Order::Precompute: precompute(command.probes, payload); break;
     case Order::Update:
         sum_pending(ranks_, *backend_, command.method);
         locally([&] { backend_->update_field(command.method); });
@@ -189,21 +189,22 @@ void RankWork::run_block(const PassRequest& request, Film& film, std::size_t blo
 }
 
 /// Probes are numbered through all volumes and cost much the same everywhere.
-void RankWork::precompute(const PrecomputeRequest& request, std::uint32_t end_probe, Payload& payload) {
+void RankWork::precompute(const PrecomputeRequest& request, Payload& payload) {
     Shares shares = no_shares();
-    shares.cover(std::min(end_probe, probes_));
+    const PixelRange wanted{request.first_probe, std::min(request.end_probe, probes_)};
+    shares.cover(wanted.end);
     bool is_first = true;
     for (std::size_t block = 0; block < shares.blocks(); ++block) {
-        const PixelRange rest{request.first_probe, probes_};
-        if (common_part(rest, shares.block(block)).empty()) continue;
+        if (common_part(wanted, shares.block(block)).empty()) continue;
         if (!is_first && !goes_on(payload.stop)) break;
         is_first = false;
-        const PixelRange part = common_part(rest, shares.share(block, ranks_.rank()));
+        const PixelRange part = common_part(wanted, shares.share(block, ranks_.rank()));
         if (part.empty()) continue;
         PrecomputeRequest local = request;
         local.first_probe = part.begin;
+        local.end_probe = part.end;
         local.stop = nullptr;
-        locally([&] { payload.counters += backend_->precompute_part(local, part.end); });
+        locally([&] { payload.counters += backend_->precompute(local); });
     }
 }
 

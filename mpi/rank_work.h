@@ -43,7 +43,6 @@ struct RankCommand {
     std::uint32_t first = 0;  ///< pixel
     PassRequest pass{};
     PrecomputeRequest probes{};
-    std::uint32_t end_probe = 0;
     std::array<char, 16> backend_name{};  ///< asked for
     std::int32_t threads = 0;
     std::uint32_t share_pixels = 0;  ///< of Open
@@ -95,7 +94,7 @@ private:
     void gather_film(FilmSlot slot);
     void run_pass(const PassRequest& request, Payload& payload);
     void run_block(const PassRequest& request, Film& film, std::size_t block, PixelRange numbers, Payload& payload);
-    void precompute(const PrecomputeRequest& request, std::uint32_t end_probe, Payload& payload);
+    void precompute(const PrecomputeRequest& request, Payload& payload);
 
     bool goes_on(const StopFlag* stop);
     Shares no_shares() const { return Shares(ranks_.size(), share_pixels_); }

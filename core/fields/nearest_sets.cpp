@@ -11,6 +11,9 @@ namespace {
 /// A gather of more candidates ends in TooMany: clipping by all pairs of bisectors takes too long.
 constexpr std::size_t kMostGathered = 160;
 
+/// Nodes of a neighborhood. Of more of them every side costs more than the searches that they save.
+constexpr std::size_t kMostKnown = 16;
+
 /// Relative error of squared_distance() in roundoffs: difference 1, doubled by the square, product 1, two sums 2;
 /// with a margin.
 constexpr double kDistanceError = gamma_bound(8);
@@ -27,6 +30,26 @@ constexpr double kWiden = 1.0 + 1e-6;
 /// An upper bound of the exact distance.
 double distance_above(float distance2) {
     return std::sqrt(static_cast<double>(distance2) * kWiden + kUnderflow) * kWiden;
+}
+
+/// At least any rounded square of a distance up to this one.
+float squared_above(double distance) {
+    return next_float_up(static_cast<float>(distance * distance * kWiden + kUnderflow));
+}
+
+Ball ball_around(const FlatRegion& region) {
+    Vec2d middle{0.0};
+    int corners = 0;
+    for (const Vec2d p : region.polygon) {
+        middle += p;
+        ++corners;
+    }
+    middle /= corners;
+    const Vec3d exact = region.origin + middle.x * region.x_axis + middle.y * region.y_axis;
+    const Vec3f center{exact};
+    double radius = 0.0;
+    for (const Vec2d p : region.polygon) radius = std::max(radius, glm::length(p - middle));
+    return {center, (radius + region.thickness + glm::length(Vec3d{center} - exact)) * kWiden};
 }
 
 }  // namespace
@@ -64,36 +87,104 @@ struct NearestSets::Gather {
     float limit() const { return limit2; }
 };
 
-/// Radius of the gather, by the triangle inequality: with d the distance from the region's center to its nearest
-/// volume and r the region's radius, the nearest volume of any point of the region lies within d + r of it, and
-/// within d + 2 r of the center.
+/// Result of a search for the nearest nodes, whatever their normals: a heap, the farthest first.
+struct NearestSets::Surroundings {
+    struct Found {
+        float distance2;
+        std::uint32_t volume;
+    };
+    std::array<Found, kMostKnown> heap;
+    std::size_t count = 0;
+
+    void consider(const KdNode& node, Vec3f position, Vec3f) {
+        const float d2 = squared_distance(position, node.position);
+        if (!(d2 < limit())) return;
+        const auto is_nearer = [](const Found& a, const Found& b) { return a.distance2 < b.distance2; };
+        if (count == kMostKnown)
+            std::pop_heap(heap.begin(), heap.end(), is_nearer);
+        else
+            ++count;
+        heap[count - 1] = {d2, node.volume};
+        std::push_heap(heap.begin(), heap.begin() + static_cast<std::ptrdiff_t>(count), is_nearer);
+    }
+    float limit() const { return count == kMostKnown ? heap.front().distance2 : kInfinity; }
+};
+
+void NearestSets::restart() {
+    for (Neighborhood& known : known_) known.radius = -1.0;
+}
+
+/// Distance from the ball's center within which all candidates lie, by the triangle inequality: with d the distance from the center to
+/// its nearest volume and r the ball's radius, the nearest volume of any point of the region lies within d + r of it, and within
+/// d + 2 r of the center.
+double NearestSets::reach_from(const Ball& ball) const {
+    return (distance_above(nearest_.distance2) + 2.0 * ball.radius) * kWiden;
+}
+
+/// Whether all candidates are among the known nodes; `nearest_` is the nearest of these.
+bool NearestSets::covers(const Neighborhood& known, const Ball& ball) const {
+    if (known.radius < 0.0 || nearest_.volume == kNoVolume) return false;
+    return reach_from(ball) + glm::length(Vec3d{ball.center} - Vec3d{known.center}) * kWiden <= known.radius;
+}
+
+/// Finds what is around a center.
+void NearestSets::explore(const KdTreeView& tree, Vec3f center, Neighborhood& known) const {
+    Surroundings around;
+    search_kd_tree(tree, center, Vec3f{0.0f}, around);
+    known.center = center;
+    known.radius = std::sqrt(static_cast<double>(around.limit())) / kWiden;
+    known.nodes.clear();
+    for (std::size_t i = 0; i < around.count; ++i) known.nodes.push_back(trees_.node_at(around.heap[i].volume));
+}
+
+/// Finds the nearest volume where the known nodes do not show it.
+NearestSets::Answer NearestSets::search(const KdTreeView& tree, const Ball& ball, Vec3f normal, Neighborhood& known) {
+    const auto agrees = [&](const KdNode& node) { return normals_agree(normal, node.normal); };
+    // Where none agrees a search visits every node; this loop does so in less time.
+    if (nearest_.volume == kNoVolume && tree.nodes.count <= static_cast<std::uint32_t>(effort_) &&
+        std::none_of(tree.nodes.begin(), tree.nodes.end(), agrees))
+        return Answer::None;
+    explore(tree, ball.center, known);
+    if (finds_nearest(known, ball, normal)) return Answer::Few;
+    Effort nearest{nearest_, effort_};
+    search_kd_tree(tree, ball.center, normal, nearest);
+    if (nearest.left <= 0) return Answer::GivenUp;
+    return nearest_.volume == kNoVolume ? Answer::None : Answer::Few;
+}
+
+bool NearestSets::finds_nearest(const Neighborhood& known, const Ball& ball, Vec3f normal) {
+    nearest_ = {};
+    if (known.radius < 0.0) return false;
+    for (const KdNode& node : known.nodes) nearest_.consider(node, ball.center, normal);
+    return covers(known, ball);
+}
+
+std::optional<std::uint32_t> NearestSets::find_only(const Ball& ball, Vec3f normal) {
+    const Neighborhood& known = known_[NormalTrees::cell_of(normal)];
+    if (!finds_nearest(known, ball, normal)) return {};
+    const float limit2 = squared_above(reach_from(ball));
+    const auto is_candidate = [&](const KdNode& node) {
+        return squared_distance(ball.center, node.position) <= limit2 && normals_agree(normal, node.normal);
+    };
+    if (std::ranges::count_if(known.nodes, is_candidate) > 1) return {};
+    return trees_.node_of(static_cast<std::uint32_t>(nearest_.volume));
+}
+
 NearestSets::Answer NearestSets::gather(const FlatRegion& region, Vec3f normal) {
     candidates_.clear();
-    tree_ = trees_.tree_for(normal);
-    Vec2d middle{0.0};
-    int corners = 0;
-    for (const Vec2d p : region.polygon) {
-        middle += p;
-        ++corners;
-    }
-    middle /= corners;
-    const Vec3d exact = region.origin + middle.x * region.x_axis + middle.y * region.y_axis;
-    const Vec3f center{exact};
-    double radius = 0.0;
-    for (const Vec2d p : region.polygon) radius = std::max(radius, glm::length(p - middle));
-    radius = (radius + region.thickness + glm::length(Vec3d{center} - exact)) * kWiden;
-
-    nearest_ = {};
-    if (hint_) nearest_.consider(*hint_, center, normal);
-    Effort search{nearest_, effort_};
-    search_kd_tree(tree_, center, normal, search);
-    if (search.left <= 0) return Answer::GivenUp;
-    if (nearest_.volume == kNoVolume) return Answer::None;
-    const double reach = (distance_above(nearest_.distance2) + 2.0 * radius) * kWiden;
-    const auto limit2 = static_cast<float>(reach * reach * kWiden + kUnderflow);
-    Gather result{region, next_float_up(limit2), candidates_, effort_};
-    search_kd_tree(tree_, center, normal, result);
-    const double farthest = reach + radius;
+    const Ball ball = ball_around(region);
+    const std::size_t cell = NormalTrees::cell_of(normal);
+    const KdTreeView tree = trees_.tree_of(cell);
+    Neighborhood& known = known_[cell];
+    if (!finds_nearest(known, ball, normal))
+        if (const Answer answer = search(tree, ball, normal, known); answer != Answer::Few) return answer;
+    const double reach = reach_from(ball);
+    Gather result{region, squared_above(reach), candidates_, effort_};
+    if (covers(known, ball))
+        for (const KdNode& node : known.nodes) result.consider(node, ball.center, normal);
+    else
+        search_kd_tree(tree, ball.center, normal, result);
+    const double farthest = reach + ball.radius;
     margin_ = 2.0 * (kDistanceError + kDoubleError) * farthest * farthest + kUnderflow;
     return result.left > 0 && candidates_.size() <= kMostGathered ? Answer::Few : Answer::TooMany;
 }
@@ -133,7 +224,6 @@ NearestSets::Answer NearestSets::find(const FlatRegion& region, Vec3f normal) {
     nodes_.clear();
     if (const Answer answer = gather(region, normal); answer != Answer::Few) return answer;
     drop_duplicates();
-    hint_ = candidates_.front().node;
     for (const Candidate& candidate : candidates_)
         if (can_be_nearest(candidate, region)) nodes_.push_back(candidate.node.volume);
     if (nodes_.size() > kMostListed) return Answer::TooMany;

@@ -2,6 +2,7 @@
 // them.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -18,6 +19,12 @@ struct FlatRegion {
     Vec3d x_axis, y_axis, normal;
     Polygon polygon;
     double thickness = 0.0;
+};
+
+/// A ball that contains a region; its center is rounded as the positions of searches are.
+struct Ball {
+    Vec3f center;
+    double radius;
 };
 
 /// Coordinates up to this magnitude give squared distances in the range of float.
@@ -40,10 +47,12 @@ public:
     /// The set of all volumes that the search from some point of the region, with this normal, can return. The
     /// polygon must not be empty. Sets are exact up to a margin of a few roundoffs of the distances.
     Answer find(const FlatRegion& region, Vec3f normal);
+    /// The node of the only volume of that set for any region in the ball, if that is known without a search.
+    std::optional<std::uint32_t> find_only(const Ball& ball, Vec3f normal);
 
-    /// Drops the hint of the last search, at the start of each chunk of work: the searches that reach the effort
+    /// Drops the neighborhoods of earlier searches, at the start of each chunk of work: the searches that reach the effort
     /// limit then do not depend on the distribution of chunks over threads.
-    void restart() { hint_ = {}; }
+    void restart();
     /// Most nodes that one search may visit.
     void set_effort(int nodes) { effort_ = nodes; }
 
@@ -58,17 +67,29 @@ private:
         double x, y, z;
         double length2;
     };
-    struct Gather;
+    /// The nodes of a tree near a center: regions there, with normals of the same cell, need no search.
+    struct Neighborhood {
+        Vec3f center{0.0f};
+        double radius = -1.0;  ///< no other node is within it
+        std::vector<KdNode> nodes;
+    };
     struct Effort;
+    struct Gather;
+    struct Surroundings;
 
     Answer gather(const FlatRegion& region, Vec3f normal);
+    double reach_from(const Ball& ball) const;
+    /// Whether the nodes known so far hold the nearest volume and all candidates.
+    bool finds_nearest(const Neighborhood& known, const Ball& ball, Vec3f normal);
+    bool covers(const Neighborhood& known, const Ball& ball) const;
+    void explore(const KdTreeView& tree, Vec3f center, Neighborhood& known) const;
+    Answer search(const KdTreeView& tree, const Ball& ball, Vec3f normal, Neighborhood& known);
     void drop_duplicates();
     bool can_be_nearest(const Candidate& candidate, const FlatRegion& region) const;
 
     NormalTrees& trees_;
-    KdTreeView tree_;  ///< of the volumes that can agree with the normal
-    Nearest nearest_;
-    std::optional<KdNode> hint_;  ///< nearest to the center of the last region
+    std::array<Neighborhood, NormalTrees::kCells> known_;
+    Nearest nearest_;  ///< to the center of the region
     int effort_ = 0;
     double margin_ = 0.0;  ///< differences of squared distances up to this may be due to rounding
     std::vector<Candidate> candidates_;

@@ -26,6 +26,10 @@ struct CubeCell {
         };
         return {side, 2 * axis + (v[axis] < 0.0f ? 1 : 0), cell((axis + 1) % 3), cell((axis + 2) % 3)};
     }
+    static CubeCell at(std::size_t index, int side) {
+        const auto i = static_cast<int>(index);
+        return {side, i / (side * side), i / side % side, i % side};
+    }
     std::size_t index() const { return static_cast<std::size_t>((face * side + row) * side + column); }
 
     Vec3f middle() const {
@@ -53,12 +57,14 @@ NormalTrees::NormalTrees(Span<const KdNode> nodes) : nodes_(nodes) {
     for (std::uint32_t i = 0; i < nodes.count; ++i) node_of_volume_[nodes[i].volume] = i;
 }
 
-KdTreeView NormalTrees::tree_for(Vec3f normal) {
-    const CubeCell cell = CubeCell::of(normal, kSide);
-    Tree& tree = trees_[cell.index()];
+std::size_t NormalTrees::cell_of(Vec3f normal) { return CubeCell::of(normal, kSide).index(); }
+
+KdTreeView NormalTrees::tree_of(std::size_t cell) {
+    Tree& tree = trees_[cell];
     std::call_once(tree.is_built, [&] {
-        const Vec3f middle = cell.middle();
-        const double angle = std::acos(static_cast<double>(kMinNormalCosine)) + cell.radius() + kRounding;
+        const CubeCell normals = CubeCell::at(cell, kSide);
+        const Vec3f middle = normals.middle();
+        const double angle = std::acos(static_cast<double>(kMinNormalCosine)) + normals.radius() + kRounding;
         const auto least = static_cast<float>(std::cos(angle));
         for (const KdNode& node : nodes_)
             if (glm::dot(middle, node.normal) > least) tree.nodes.push_back(node);

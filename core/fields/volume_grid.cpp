@@ -103,6 +103,17 @@ private:
     bool is_flat_ = false;
 };
 
+/// Contains all points of a triangle as kernels round them.
+Ball ball_around(const TriangleCorners& corners) {
+    const Vec3f center{(corners.p[0] + corners.p[1] + corners.p[2]) / 3.0};
+    double radius2 = 0.0;
+    for (const Vec3d& corner : corners.p) {
+        const Vec3d away = corner - Vec3d{center};
+        radius2 = std::max(radius2, glm::dot(away, away));
+    }
+    return {center, std::sqrt(radius2) + 2.0 * kPointError * glm::length(corners.reach())};
+}
+
 /// Builds the grids of one side after the other. One object per thread.
 class SideBuilder {
 public:
@@ -122,9 +133,11 @@ private:
     VolumePlace build_side(std::uint32_t side) {
         const std::uint32_t triangles = scene_.triangles.count;
         const std::uint32_t primitive = side < triangles ? side : side - triangles;
-        const FramedTriangle triangle({scene_.positions, scene_.triangles[primitive]});
-        if (!triangle.is_flat()) return kSearch;
+        const TriangleCorners corners{scene_.positions, scene_.triangles[primitive]};
         normal_ = (side < triangles ? 1.0f : -1.0f) * scene_.planes[primitive].normal;
+        if (const auto node = sets_.find_only(ball_around(corners), normal_)) return {VolumePlace::Kind::Node, *node};
+        const FramedTriangle triangle(corners);
+        if (!triangle.is_flat()) return kSearch;
         sets_.set_effort(own_[side] > 0 ? kEffortWithVolumes : kEffort);
         most_entries_ = pieces_.lists.size() + kFreeEntries + std::size_t{kEntriesPerVolume} * own_[side];
         const NearestSets::Answer answer = sets_.find(triangle.part(triangle.low(), triangle.high()), normal_);
@@ -246,7 +259,7 @@ HostVolumeGrid build_volume_grid(const HostScene& scene, const HostVolumes& volu
     if (threads <= 0) threads = usable_threads();
     const std::vector<std::uint32_t> own = count_on_sides(scene, volumes);
     const auto sides = static_cast<std::uint32_t>(own.size());
-    const std::uint32_t chunk = std::clamp(sides / 1024u, 1u, 1024u);
+    const std::uint32_t chunk = std::clamp(sides / 128u, 1u, 8192u);
     std::vector<GridPieces> pieces((sides + chunk - 1) / chunk);
     NormalTrees trees(view_of(volumes.kd_nodes));
     ChunkQueue queue(0, sides, chunk);

@@ -81,14 +81,15 @@ struct PassRequest {
     }
 };
 
-/// One stratified probe for every cell of every volume from `first_probe` on, recorded into a method's field.
+/// One stratified probe for every cell of every volume, or for a range of them, recorded into a method's field.
 struct PrecomputeRequest {
     MethodId method = MethodId::Precomputed;
     FeatureSet features;
     PathSettings path;
     std::uint32_t sample = 0;  ///< stratum, below strata_side^2
     std::uint32_t strata_side = 4;
-    std::uint32_t first_probe = 0;  ///< volume-major, then by cell
+    std::uint32_t first_probe = 0;  ///< numbered as ProbeQuarter says
+    std::uint32_t end_probe = kToTheLast;
     const StopFlag* stop = nullptr;
 };
 

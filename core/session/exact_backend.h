@@ -20,9 +20,6 @@ public:
     /// Calls change(array) for every array of a method's pending sums, and keeps the values that it leaves there.
     virtual void change_pending(MethodId method, const std::function<void(PendingSums)>& change) = 0;
 
-    /// precompute() of the probes up to, but not including, `end_probe`.
-    virtual PassCounters precompute_part(const PrecomputeRequest& request, std::uint32_t end_probe) = 0;
-
     /// From now on a pass that is stopped leaves no path under way: film and field are all of its state.
     virtual void settle_when_stopped() {}
 };

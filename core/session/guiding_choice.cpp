@@ -17,6 +17,8 @@ constexpr double kMature = 640.0;
 constexpr double kLeastGainOfYoung = 0.1;
 constexpr double kLeastGainOfLearning = 0.9;
 constexpr double kLeastGain = 1.04;
+/// By a coarse map and both errors: a complete one gains a fifth more, and takes a few passes.
+constexpr double kLeastGainOfCoarse = 0.9;
 /// The gain by both errors is at most so many times that by variance, which is the surer one: relative variances of small pictures, and of
 /// few samples, are noisy.
 constexpr double kMostOverGain = 1.1;
@@ -30,16 +32,23 @@ constexpr double kFallOfFastLearning = 0.75;
 /// found light tells nothing, and at most 1.1 where guiding does not pay.
 constexpr double kRatioOfHiddenLight = 1.5;
 
-/// Rounds of the warm-up by paths of the baseline, and of both kinds. By its predicted gain a field that has learned from 6 rounds of the
-/// baseline is as good as one from 12 guided rounds; at equal time some scenes gain by it and some lose
-/// (docs/notebook/2026-11-27-unguided-warm-up.md).
-constexpr std::uint32_t kBaselineRounds = 6;
-constexpr std::uint32_t kMostWarmUpRounds = 12;
+/// Rounds of a warm-up by paths of the baseline, and of both kinds.
+struct WarmUpRounds {
+    std::uint32_t baseline, most;
+
+    /// By its predicted gain a field that has learned from 6 rounds of the baseline is as good as one from 12 guided rounds; at equal
+    /// time some scenes gain by it and some lose (docs/notebook/2026-11-27-unguided-warm-up.md). A map learns nothing: its rounds only
+    /// measure, each method by two at most (docs/notebook/2026-11-27-coarse-map.md).
+    static constexpr WarmUpRounds of(GuidingTerms::Field field) {
+        if (field == GuidingTerms::Field::Learning) return {6, 12};
+        return {kFewestBeforeVariance + 1, kFewestBeforeVariance + 3};
+    }
+    /// From it on the warm-up ends with a clear gain or loss, see loses_clearly().
+    constexpr std::uint32_t first_choice() const { return baseline + 2; }
+};
 /// Guided rounds begin at once where fewer paths of the baseline bring light: they find the rest of it.
 constexpr double kLeastLitShare = 0.25;
-/// From this round on a warm-up ends with a clear gain; or with a loss, if the gain by both errors is below this one, and the field has
-/// learned from so many paths per volume.
-constexpr std::uint32_t kFirstRoundOfChoice = kBaselineRounds + 2;
+/// A clear loss in a warm-up: a gain by both errors below the first, of a field that has learned from so many paths per volume.
 constexpr double kLeastGainOfWarmUp = 0.7;
 constexpr double kLearnedBeforeLoss = 100.0;
 /// Measurements of guided paths until the variance that later ones are compared to.
@@ -111,9 +120,9 @@ void PathEfficiency::fade(double share) {
     lit_ *= share;
 }
 
-Trial GuidingChoice::warm_up_round() const {
+Trial GuidingChoice::warm_up_round(const GuidingTerms& terms) const {
     const bool is_dark = baseline_.is_measured() && baseline_.lit_share() < kLeastLitShare;
-    const bool is_guided = is_dark || rounds_ >= kBaselineRounds;
+    const bool is_guided = is_dark || rounds_ >= WarmUpRounds::of(terms.field).baseline;
     return {.is_guided = is_guided, .is_baseline = !is_guided};
 }
 
@@ -126,22 +135,23 @@ void GuidingChoice::measure_round(const PassCounters& guided, const PassCounters
     spend(guided, baseline, terms);
     if (guided.paths == 0) return;
     predict();
+    const WarmUpRounds rounds = WarmUpRounds::of(terms.field);
     // Without a measurable variance of either the field is trusted: the baseline may have found no light at all.
-    const double gain = gain_.value_or(kLeastGain);
-    const double least = least_gain();
+    const bool is_coarse = terms.field == GuidingTerms::Field::Coarse;
+    const double gain = gain_ && is_coarse ? gain_of_both_ : gain_.value_or(kLeastGain);
+    const double least = least_gain(terms);
     // Where light is hidden a young field has not yet met its own rare bright paths, whatever its gain.
     const bool is_clear =
-        rounds_ >= kFirstRoundOfChoice && gain >= std::max(least, kLeastGainOfLearning) && !finds_hidden_light();
-    if (is_clear || rounds_ >= kMostWarmUpRounds)
+        rounds_ >= rounds.first_choice() && gain >= std::max(least, kLeastGainOfLearning) && !finds_hidden_light();
+    if (is_clear || rounds_ >= rounds.most)
         belief_ = gain >= least;
-    else if (loses_clearly())
+    else if (rounds_ >= rounds.first_choice() && loses_clearly())
         belief_ = false;
     found_hidden_light_ = belief_.value_or(false) && finds_hidden_light();
 }
 
 bool GuidingChoice::loses_clearly() const {
-    const bool is_known = rounds_ >= kFirstRoundOfChoice && learned_ >= kLearnedBeforeLoss && gain_;
-    return is_known && gain_of_both_ < kLeastGainOfWarmUp && !finds_hidden_light();
+    return gain_ && learned_ >= kLearnedBeforeLoss && gain_of_both_ < kLeastGainOfWarmUp && !finds_hidden_light();
 }
 
 Trial GuidingChoice::trial_before(std::uint32_t pass) const {
@@ -171,7 +181,7 @@ void GuidingChoice::measure_trial(std::uint32_t pass, const PassCounters& guided
     }
     spend(guided, baseline, terms);
     predict();
-    if (!pays() || decides_after(pass - 1)) decide();
+    if (!pays() || decides_after(pass - 1)) decide(terms);
 }
 
 void GuidingChoice::measure_pass(std::uint32_t pass, const PassCounters& counters, const GuidingTerms& terms) {
@@ -182,7 +192,7 @@ void GuidingChoice::measure_pass(std::uint32_t pass, const PassCounters& counter
     else
         baseline_.add(counters, terms.costs.segment);
     predict();
-    if (decides_after(pass)) decide();
+    if (decides_after(pass)) decide(terms);
 }
 
 void GuidingChoice::measure_guided(const PassCounters& counters, const GuidingTerms& terms) {
@@ -203,7 +213,11 @@ double GuidingChoice::guided_cost() const {
 }
 
 void GuidingChoice::learn(std::uint64_t paths, const GuidingTerms& terms) {
-    learned_ += terms.learns ? static_cast<double>(paths) / terms.volumes : kMature;
+    switch (terms.field) {
+    case GuidingTerms::Field::Learning: learned_ += static_cast<double>(paths) / terms.volumes; break;
+    case GuidingTerms::Field::Coarse: break;
+    case GuidingTerms::Field::Complete: learned_ = std::max(learned_, kMature); break;
+    }
 }
 
 void GuidingChoice::predict() {
@@ -222,7 +236,8 @@ bool GuidingChoice::finds_hidden_light() const {
            guided_.lit_share() > kRatioOfHiddenLight * baseline_.lit_share();
 }
 
-double GuidingChoice::least_gain() const {
+double GuidingChoice::least_gain(const GuidingTerms& terms) const {
+    if (terms.field == GuidingTerms::Field::Coarse) return kLeastGainOfCoarse;
     if (learned_ >= kMature) return kLeastGain;
     const bool is_fast = first_variance_ && guided_.variance() < kFallOfFastLearning * *first_variance_;
     const bool is_open = learned_ < kYoung || is_fast || finds_hidden_light();
@@ -235,10 +250,10 @@ bool GuidingChoice::decides_after(std::uint32_t pass) const {
     return pass >= (rounds_ > 0 ? kFirstTrial : kSecondTrial + 1);
 }
 
-void GuidingChoice::decide() {
+void GuidingChoice::decide(const GuidingTerms& terms) {
     // A field that is still learning is given up for variance alone: relative variances need means of many samples.
     const double gain = learned_ >= kMature ? gain_of_both_ : gain_.value_or(0.0);
-    if (gain_) belief_ = gain >= (pays() || finds_hidden_light() ? least_gain() : kReturningGain);
+    if (gain_) belief_ = gain >= (pays() || finds_hidden_light() ? least_gain(terms) : kReturningGain);
 }
 
 void GuidingChoice::trust_field() {

@@ -69,10 +69,16 @@ private:
 
 /// The costs of paths, the picture and the field that a choice is about.
 struct GuidingTerms {
+    enum class Field {
+        Learning,
+        Coarse,
+        Complete
+    };  ///< learns from guided paths; a precomputed map, coarse or complete
+
     PathCosts costs{};
     double pixels = 1.0;   ///< of the picture
     double volumes = 1.0;  ///< of the field
-    bool learns = true;    ///< the field by guided paths; else it is complete
+    Field field = Field::Learning;
 };
 
 /// Paths of a part of the pixels that never come to the picture: they train the field or measure a method. Of one kind, or none.
@@ -92,7 +98,7 @@ public:
     std::uint32_t rounds() const { return rounds_; }
     /// The trial of the next round: first of the baseline, whose paths must train a field that learns, then guided ones. Their samples
     /// must form the film that variances are measured against.
-    Trial warm_up_round() const;
+    Trial warm_up_round(const GuidingTerms& terms) const;
     void measure_round(const PassCounters& guided, const PassCounters& baseline, const GuidingTerms& terms);
 
     /// Whether guided paths of the warm-up brought light far more often than those of the baseline: rare bright paths are then most of
@@ -142,13 +148,13 @@ private:
     void spend(const PassCounters& guided, const PassCounters& baseline, const GuidingTerms& terms);
     /// Whether guided paths bring light far more often, so that the baseline's variance is only that of the light it has found.
     bool finds_hidden_light() const;
-    double least_gain() const;
+    double least_gain(const GuidingTerms& terms) const;
     /// Whether the guided rounds of a warm-up have measured a clear loss.
     bool loses_clearly() const;
     /// Whether the next trial is that after a warm-up which gave up guiding.
     bool takes_second_look() const;
     bool decides_after(std::uint32_t pass) const;
-    void decide();
+    void decide(const GuidingTerms& terms);
 
     PathEfficiency guided_;
     PathEfficiency baseline_;

@@ -62,7 +62,9 @@ std::optional<FieldStatus> Session::field_status(MethodId method) const {
                        .is_frozen = info_of(method).learns && is_frozen(method),
                        .was_edited = state.was_edited};
     if (info_of(method).precomputes)
-        status.precomputed_share = static_cast<double>(state.precomputed_slices) / settings_.field.precompute_samples;
+        status.precomputed_share =
+            (state.precomputed_slices + static_cast<double>(state.next_probe) / probe_count()) /
+            settings_.field.precompute_samples;
     return status;
 }
 

@@ -113,6 +113,9 @@ public:
 private:
     std::uint32_t pixel_count() const { return static_cast<std::uint32_t>(settings_.width * settings_.height); }
     std::uint32_t probe_count() const;
+    std::uint32_t coarse_probe_count() const;
+    bool is_map_complete(MethodId method) const;
+    bool coarse_map_suffices(FilmSlot slot) const;
     std::size_t stored_bytes(MethodId method) const;
     FieldProgress& field(MethodId method) { return fields_[static_cast<std::size_t>(method)]; }
     const FieldProgress& field(MethodId method) const { return fields_[static_cast<std::size_t>(method)]; }
@@ -155,6 +158,7 @@ private:
     std::uint32_t trial_step() const;
     void measure_guiding(FilmSlot slot);
     GuidingTerms guiding_terms(FilmSlot slot) const;
+    GuidingTerms::Field state_of_field(MethodId method) const;
     std::uint64_t trained_passes(MethodId method) const;
     bool is_frozen(MethodId method) const { return trained_passes(method) >= settings_.learn_passes; }
     void control_learning(const EditLearning& edit);

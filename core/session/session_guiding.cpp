@@ -31,12 +31,17 @@ bool Session::warms_up(FilmSlot slot) const { return chooses_guiding(slot) && tr
 /// Number of pixels that share a path of a trial.
 std::uint32_t Session::trial_step() const { return std::clamp(pixel_count() / kTrialPaths, 1u, kLargestStep); }
 
+GuidingTerms::Field Session::state_of_field(MethodId method) const {
+    if (info_of(method).learns) return GuidingTerms::Field::Learning;
+    return is_map_complete(method) ? GuidingTerms::Field::Complete : GuidingTerms::Field::Coarse;
+}
+
 GuidingTerms Session::guiding_terms(FilmSlot slot) const {
     return {.costs = PathCosts::of(scene_.packed()->triangles.size(), needed_features(slot),
                                    representation_of(settings_.field, slot.method)),
             .pixels = static_cast<double>(pixel_count()),
             .volumes = static_cast<double>(placement_.count()),
-            .learns = info_of(slot.method).learns};
+            .field = state_of_field(slot.method)};
 }
 
 /// Decides about the passes that begin, up to the next update. Returns false if the trials before them were stopped: the next call
@@ -66,7 +71,7 @@ bool Session::choose_guiding(FilmSlot slot, const StopFlag* stop) {
 bool Session::warm_up(FilmSlot slot, const StopFlag* stop) {
     FilmProgress& state = films_[slot];
     while (state.guiding.is_warming_up()) {
-        if (!run_trial(slot, state.guiding.warm_up_round(), stop)) return false;
+        if (!run_trial(slot, state.guiding.warm_up_round(guiding_terms(slot)), stop)) return false;
         state.guiding.measure_round(state.trial.guided, state.trial.baseline, guiding_terms(slot));
         state.trial = {};
     }

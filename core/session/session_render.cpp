@@ -1,6 +1,5 @@
-// The part of Session that renders: precomputation and passes, piece by piece, and the updates of learned fields.
+// The part of Session that renders: passes, piece by piece, and the updates of learned fields.
 #include <algorithm>
-#include <cmath>
 
 #include "core/base/timer.h"
 #include "core/scene/pack_scene.h"
@@ -33,6 +32,7 @@ Progress Session::advance_to_path(FilmSlot slot, std::uint32_t pixel, const Stop
     if (needs_precompute(slot)) return precompute_slice(slot, stop);
     prepare_pass(slot);
     if (films_[slot].next_pixel == 0 && !choose_guiding(slot, stop)) return Progress::Stopped;
+    if (needs_precompute(slot)) return Progress::Precomputed;
     return render_parts_before(slot, pixel, stop) ? Progress::Rendered : Progress::Stopped;
 }
 
@@ -59,45 +59,6 @@ void Session::ensure_film(FilmSlot slot) {
     state.is_allocated = true;
 }
 
-bool Session::needs_precompute(FilmSlot slot) const {
-    const bool shows_field = slot.view == View::Beauty || info_of(slot.view).needs_tables;
-    return shows_field && info_of(slot.method).precomputes &&
-           field(slot.method).precomputed_slices < static_cast<std::uint32_t>(settings_.field.precompute_samples);
-}
-
-Progress Session::precompute_slice(FilmSlot slot, const StopFlag* stop) {
-    const Stopwatch watch;
-    FieldProgress& state = field(slot.method);
-    FilmOrigin& origin = films_[slot].origin;
-    origin.forced = origin.forced.with(settings_.forced_effects);
-    const auto slices = static_cast<std::uint32_t>(settings_.field.precompute_samples);
-    const PassCounters counters =
-        backend_->precompute({.method = slot.method,
-                              .features = needed_features(slot).with(settings_.forced_effects),
-                              .path = probe_settings(settings_, slot.method),
-                              .sample = state.precomputed_slices,
-                              .strata_side = static_cast<std::uint32_t>(std::lround(std::sqrt(slices))),
-                              .first_probe = state.next_probe,
-                              .stop = stop});
-    state.records += counters.paths;
-    state.clamped_records += counters.path.method.clamped_records;
-    state.next_probe += static_cast<std::uint32_t>(counters.paths);
-    const bool complete = state.next_probe >= probe_count();
-    if (complete) {
-        state.next_probe = 0;
-        if (++state.precomputed_slices == slices) {
-            backend_->update_field(slot.method);
-            ++state.passes;
-        }
-    }
-    state.precompute_seconds += watch.seconds();
-    return complete ? Progress::Precomputed : Progress::Stopped;
-}
-
-std::uint32_t Session::probe_count() const {
-    return static_cast<std::uint32_t>(placement_.count()) * static_cast<std::uint32_t>(placement_.bins());
-}
-
 Progress Session::render_slot(FilmSlot slot, const StopFlag* stop, std::uint32_t most_passes) {
     begin_film(slot);
     prepare_pass(slot);
@@ -121,6 +82,7 @@ void Session::prepare_pass(FilmSlot slot) {
 Progress Session::render_passes(FilmSlot slot, const StopFlag* stop, std::uint32_t most) {
     FilmProgress& state = films_[slot];
     if (state.next_pixel == 0 && !choose_guiding(slot, stop)) return Progress::Stopped;
+    if (needs_precompute(slot)) return Progress::Precomputed;  // by the choice just made
     if (!render_parts_before(slot, pixel_count() - 1, stop)) return Progress::Stopped;
     render_part(slot, pixel_count(), stop, equal_passes(slot, most));
     if (state.next_pixel < pixel_count()) return Progress::Stopped;

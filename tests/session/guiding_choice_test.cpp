@@ -38,8 +38,8 @@ template <class VarianceOf>
 std::uint32_t warm_up(GuidingChoice& choice, VarianceOf&& variance_of, const GuidingTerms& terms = terms_of()) {
     std::uint32_t rounds = 0;
     for (; choice.is_warming_up() && rounds < 100; ++rounds) {
-        const Trial trial = choice.warm_up_round();
-        CHECK(trial.is_guided == (rounds >= kBaselineRounds));
+        const Trial trial = choice.warm_up_round(terms);
+        CHECK(trial.is_guided == (rounds >= (terms.field == GuidingTerms::Field::Learning ? kBaselineRounds : 4)));
         CHECK(trial.is_baseline == !trial.is_guided);
         PassCounters baseline = trial.is_baseline ? counters_of(1.0) : PassCounters{};
         if (rounds < kFewestBeforeVariance) baseline.variance = {};
@@ -159,7 +159,7 @@ TEST_CASE("Guiding choice: a young field that finds light where the baseline doe
             guided.zero_contribution_paths = 100 - lit_of_guided;
             PassCounters baseline = counters_of(1.0);
             baseline.zero_contribution_paths = 90;
-            const bool is_guided = choice.warm_up_round().is_guided;
+            const bool is_guided = choice.warm_up_round(terms).is_guided;
             choice.measure_round(is_guided ? guided : PassCounters{}, is_guided ? PassCounters{} : baseline, terms);
         }
         CHECK(choice.found_hidden_light() == (choice.pays() && lit_of_guided > 15));
@@ -208,9 +208,24 @@ TEST_CASE("Guiding choice: the more a field has learned, the more is asked of it
     CHECK_FALSE(pays_with(0.7, terms_of(400.0)));   // mature
     CHECK(pays_with(0.6, terms_of(400.0)));         // 1.11
     GuidingTerms complete = terms_of();
-    complete.learns = false;
+    complete.field = GuidingTerms::Field::Complete;
     CHECK_FALSE(pays_with(0.7, complete));
     CHECK(pays_with(0.6, complete));
+}
+
+TEST_CASE("Guiding choice: a coarse map is measured in six rounds, and has to gain 0.9") {
+    GuidingTerms coarse = terms_of();
+    coarse.field = GuidingTerms::Field::Coarse;
+    const auto outcome = [&](double variance) {
+        GuidingChoice choice;
+        const std::uint32_t rounds = warm_up(
+            choice, [&](std::uint32_t) { return variance; }, coarse);
+        return std::pair(rounds, choice.pays());
+    };
+    CHECK(outcome(0.4) == std::pair(6u, true));
+    CHECK(outcome(0.72) == std::pair(6u, true));   // 0.93
+    CHECK(outcome(0.76) == std::pair(6u, false));  // 0.88
+    CHECK(outcome(20.0) == std::pair(6u, false));
 }
 
 TEST_CASE("Guiding choice: nothing is told before the warm-up is over") {

@@ -23,10 +23,27 @@ struct ProbeMethod : DefaultMethod {
 };
 static_assert(Method<ProbeMethod>);
 
-/// The cell that a probe measures. Probes are numbered volume-major, then by cell.
+/// The cell that a probe measures.
 struct ProbeTarget {
     std::int32_t volume;
     int cell;
+};
+
+/// One of each 2 x 2 cells of every volume. Probes are numbered by quarters, so that those of the first one alone make a coarse map;
+/// within it volume-major, then by cell.
+struct ProbeQuarter {
+    int x, y;           ///< of its cell in each block, 0 or 1
+    int columns, rows;  ///< blocks of a volume
+
+    PL_HD static ProbeQuarter of(int side, int number) {
+        const int x = number == 1 || number == 2 ? 1 : 0;  // the second cell is diagonal to the first
+        const int y = number == 1 || number == 3 ? 1 : 0;
+        return {x, y, (side + 1 - x) / 2, (side + 1 - y) / 2};
+    }
+    PL_HD std::uint32_t probes_of_volume() const { return static_cast<std::uint32_t>(columns * rows); }
+    PL_HD int cell(int side, int block) const {
+        return (2 * (block / columns) + y) * side + 2 * (block % columns) + x;
+    }
 };
 
 PL_HD inline std::uint32_t probe_count(const TableView& field) {
@@ -34,8 +51,14 @@ PL_HD inline std::uint32_t probe_count(const TableView& field) {
 }
 
 PL_HD inline ProbeTarget probe_target(const TableView& field, std::uint32_t probe) {
-    const auto cells = static_cast<std::uint32_t>(field.cells.count());
-    return {static_cast<std::int32_t>(probe / cells), static_cast<int>(probe % cells)};
+    const int side = field.cells.side;
+    ProbeQuarter quarter = ProbeQuarter::of(side, 0);
+    for (int next = 1; next < 4 && probe >= field.normals.count * quarter.probes_of_volume(); ++next) {
+        probe -= field.normals.count * quarter.probes_of_volume();
+        quarter = ProbeQuarter::of(side, next);
+    }
+    const std::uint32_t per_volume = quarter.probes_of_volume();
+    return {static_cast<std::int32_t>(probe / per_volume), quarter.cell(side, static_cast<int>(probe % per_volume))};
 }
 
 /// Sample `index` of strata_side^2 of every probe.

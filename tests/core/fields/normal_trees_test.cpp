@@ -39,7 +39,7 @@ TEST_CASE("Normal trees: the nearest volume is that among all, also at the large
         bool is_same = true;
         const auto compare = [&](Vec3f normal) {
             const Vec3f position = random.direction();
-            const std::int32_t found = find_volume(trees.tree_for(normal), position, normal);
+            const std::int32_t found = find_volume(trees.tree_of(NormalTrees::cell_of(normal)), position, normal);
             is_same = is_same && found == find_volume(all_of(nodes), position, normal);
             if (found != kNoVolume)
                 is_same =
@@ -61,7 +61,7 @@ TEST_CASE("Normal trees leave out most volumes of a ball") {
     Uniforms random(5);
     const std::vector<KdNode> nodes = random_nodes(2000, random);
     NormalTrees trees(all_of(nodes).nodes);
-    for (int i = 0; i < 100; ++i) CHECK(trees.tree_for(random.direction()).nodes.count < 600);
+    for (int i = 0; i < 100; ++i) CHECK(trees.tree_of(NormalTrees::cell_of(random.direction())).nodes.count < 600);
 }
 
 TEST_CASE("Normal trees are the same for several threads that ask at once") {
@@ -73,7 +73,7 @@ TEST_CASE("Normal trees are the same for several threads that ask at once") {
         for (int i = 0; i < 6; ++i) {
             Vec3f normal{0.0f};
             normal[i / 2] = i % 2 == 0 ? 1.0f : -1.0f;
-            first[thread][i] = trees.tree_for(normal).nodes.data;
+            first[thread][i] = trees.tree_of(NormalTrees::cell_of(normal)).nodes.data;
         }
     };
     std::thread other(ask, 1);
