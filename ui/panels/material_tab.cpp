@@ -10,7 +10,8 @@
 namespace pl {
 namespace {
 
-constexpr float kMostStrength = 1000.0f;
+/// Most of a value without bounds that a slider reaches, unless the file has more.
+constexpr float kMostOfSlider = 1000.0f;
 
 void draw_list(ViewerModel& model, std::uint32_t selected) {
     const EditedMaterials& materials = model.scene().materials();
@@ -30,6 +31,27 @@ void draw_list(ViewerModel& model, std::uint32_t selected) {
 /// Reflectance or transmittance: each channel in [0, 1].
 bool share_row(const char* label, const char* tip, glm::vec3& color) {
     return color_row(label, fmt::format("{} Linear red, green and blue, from 0 to 1.", tip).c_str(), &color.x);
+}
+
+float largest(const glm::vec3& value) { return std::max({value.x, value.y, value.z}); }
+
+/// Rows of a value of at least 0 in each channel: its largest channel, and a color beside it unless it is 0.
+struct ScaledColorRows {
+    const char* label;
+    const char* tip;
+    const char* color_label;
+    const char* color_tip;
+};
+
+bool scaled_color_rows(const ScaledColorRows& rows, glm::vec3& value, const glm::vec3& file) {
+    float scale = largest(value);
+    glm::vec3 color = scale > 0.0f ? value / scale : glm::vec3{1.0f};
+    bool changed = slider_row(
+        rows.label, rows.tip, &scale,
+        {0.0f, std::max(kMostOfSlider, 2.0f * largest(file)), largest(file), "%.4g", ImGuiSliderFlags_Logarithmic});
+    if (scale > 0.0f) changed |= share_row(rows.color_label, rows.color_tip, color);
+    if (changed) value = scale * color;
+    return changed;
 }
 
 bool draw_reflection(MaterialDescription& m, const MaterialDescription& file) {
@@ -52,24 +74,22 @@ bool draw_reflection(MaterialDescription& m, const MaterialDescription& file) {
         changed |=
             slider_row("Index", "Index of refraction, inside over outside: water 1.33, glass 1.5, diamond 2.4.",
                        &m.ior, {kLeastIor, kMostIor, file.ior, "%.3f"});
+    if (m.kind == SurfaceKind::Dielectric)
+        changed |= scaled_color_rows({"Absorption",
+                                      "Of the glass, per unit of length, in the largest channel: it lets the share "
+                                      "exp(-absorption x length) through. 0: clear.",
+                                      "Absorbed", "Color of the light that the glass takes away."},
+                                     m.absorption, file.absorption);
     return changed;
 }
 
-float strength_of(const glm::vec3& emission) { return std::max({emission.x, emission.y, emission.z}); }
-
-/// Emitted radiance as a color and the value of its largest channel.
 bool draw_emission(MaterialDescription& m, const MaterialDescription& file) {
-    float strength = strength_of(m.emission);
-    glm::vec3 color = strength > 0.0f ? m.emission / strength : glm::vec3{1.0f};
     bool changed =
-        slider_row("Emission", "Emitted radiance of the front, in the largest channel. 0: no light.", &strength,
-                   {0.0f, std::max(kMostStrength, 2.0f * strength_of(file.emission)), strength_of(file.emission),
-                    "%.4g", ImGuiSliderFlags_Logarithmic});
-    if (strength > 0.0f) {
-        changed |= share_row("Lamp color", "Color of the emitted radiance.", color);
+        scaled_color_rows({"Emission", "Emitted radiance of the front, in the largest channel. 0: no light.",
+                           "Lamp color", "Color of the emitted radiance."},
+                          m.emission, file.emission);
+    if (largest(m.emission) > 0.0f)
         changed |= toggle_row("Both sides emit", "Otherwise only the front.", &m.two_sided_emission);
-    }
-    if (changed) m.emission = strength * color;
     return changed;
 }
 
