@@ -87,14 +87,16 @@ inline Decision check_probed_cells() {
     const TableField tables = field.view();
     const std::int32_t volume = field.volume_at(wall_center(kFloor, kCubeLow, kCubeHigh), {0.0f, 1.0f, 0.0f});
     const PathSettings settings{.seed = 1, .stream = Stream::Precompute};
-    for (int cell = 0; cell < tables.cells.count(); ++cell)
+    for (std::uint32_t probe = 0; probe < probe_count(tables); ++probe) {
+        if (probe_target(tables, probe).volume != volume) continue;
         for (std::uint32_t sample = 0; sample < 16; ++sample) {
             PathCounters counters;
-            auto state = begin_probe<FeatureSet{}>(tables, settings, tables.cell_index(volume, cell), {sample, 4});
+            auto state = begin_probe<FeatureSet{}>(tables, settings, probe, {sample, 4});
             trace_path<FeatureSet{}>(PathContext<ProbeMethod>{view, ProbeMethod{}, settings}, BvhIntersector{view},
                                      state, counters);
             finish_probe(tables, state, counters.method);
         }
+    }
     field.update();
     return judge_cells(field, volume, field.site(volume).position);
 }
