@@ -11,7 +11,7 @@ namespace {
 /// A gather of more candidates ends in TooMany: clipping by all pairs of bisectors takes too long.
 constexpr std::size_t kMostGathered = 160;
 
-/// Nodes of a neighborhood. Of more of them every side costs more than the searches that they save.
+/// Nodes that are kept around the last search: more of them cost every side more time than the searches that they save.
 constexpr std::size_t kMostKnown = 16;
 
 /// Relative error of squared_distance() in roundoffs: difference 1, doubled by the square, product 1, two sums 2;
@@ -32,7 +32,7 @@ double distance_above(float distance2) {
     return std::sqrt(static_cast<double>(distance2) * kWiden + kUnderflow) * kWiden;
 }
 
-/// At least any rounded square of a distance up to this one.
+/// An upper bound of the rounded squares of all distances up to this one.
 float squared_above(double distance) {
     return next_float_up(static_cast<float>(distance * distance * kWiden + kUnderflow));
 }
@@ -111,7 +111,10 @@ struct NearestSets::Surroundings {
 };
 
 void NearestSets::restart() {
-    for (Neighborhood& known : known_) known.radius = -1.0;
+    for (Neighborhood& known : known_) {
+        known.radius = -1.0;
+        known.nodes.clear();
+    }
 }
 
 /// Distance from the ball's center within which all candidates lie, by the triangle inequality: with d the distance from the center to
@@ -123,7 +126,7 @@ double NearestSets::reach_from(const Ball& ball) const {
 
 /// Whether all candidates are among the known nodes; `nearest_` is the nearest of these.
 bool NearestSets::covers(const Neighborhood& known, const Ball& ball) const {
-    if (known.radius < 0.0 || nearest_.volume == kNoVolume) return false;
+    if (nearest_.volume == kNoVolume) return false;
     return reach_from(ball) + glm::length(Vec3d{ball.center} - Vec3d{known.center}) * kWiden <= known.radius;
 }
 
@@ -154,7 +157,6 @@ NearestSets::Answer NearestSets::search(const KdTreeView& tree, const Ball& ball
 
 bool NearestSets::finds_nearest(const Neighborhood& known, const Ball& ball, Vec3f normal) {
     nearest_ = {};
-    if (known.radius < 0.0) return false;
     for (const KdNode& node : known.nodes) nearest_.consider(node, ball.center, normal);
     return covers(known, ball);
 }

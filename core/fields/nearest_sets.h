@@ -70,7 +70,7 @@ private:
     /// The nodes of a tree near a center: regions there, with normals of the same cell, need no search.
     struct Neighborhood {
         Vec3f center{0.0f};
-        double radius = -1.0;  ///< no other node is within it
+        double radius = -1.0;  ///< no other node of the tree is within it; negative before the first search
         std::vector<KdNode> nodes;
     };
     struct Effort;

@@ -1,5 +1,5 @@
-// The part of Session that fills the precomputed map. Before guiding is chosen, and where it does not pay, the map stays coarse: the
-// probes of its first quarter are enough to find out, and the others cost as much as several passes.
+// The part of Session that fills the precomputed map. For a film that warms up the map stays coarse until guiding is chosen, and as long
+// as it does not pay: the probes of the first quarter are enough to find out, and the others take as long as several passes.
 #include <cmath>
 
 #include "core/base/timer.h"

@@ -44,4 +44,18 @@ inline bool slice_is_partial(const Session& session) {
            field->records % static_cast<std::uint64_t>(field->volumes * field->bins) != 0;
 }
 
+/// Renders up to this number of passes; every second call is stopped before its work, the others within it. Returns the number of
+/// the former that stopped work.
+inline int render_with_stops(Session& session, std::uint32_t passes) {
+    int stops = 0;
+    for (int i = 0; session.passes(slot_of(session)) < passes; ++i) {
+        StopFlag stop = true;
+        if (i % 2 == 0)
+            stops += session.advance(slot_of(session), &stop) == Progress::Stopped ? 1 : 0;
+        else
+            advance_interrupted(session, 0.6f);
+    }
+    return stops;
+}
+
 }  // namespace pl::test

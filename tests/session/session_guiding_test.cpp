@@ -85,15 +85,7 @@ TEST_CASE("Threads and stops do not change a bit of a film that guiding was give
     CHECK(same_state(expected, state_of(three)));
     CHECK(three.guiding_status(slot_of(three))->gain == one.guiding_status(slot_of(one))->gain);
     Session stopped = make_session(scene, settings, 2);
-    int stops = 0;
-    for (int i = 0; stopped.passes(slot_of(stopped)) < kPasses; ++i) {
-        StopFlag stop = true;
-        if (i % 2 == 0)
-            stops += stopped.advance(slot_of(stopped), &stop) == Progress::Stopped ? 1 : 0;
-        else
-            advance_interrupted(stopped, 0.6f);
-    }
-    CHECK(stops > 0);
+    CHECK(render_with_stops(stopped, kPasses) > 0);
     CHECK(same_state(expected, state_of(stopped)));
 }
 
@@ -165,15 +157,7 @@ TEST_CASE("The map of a large picture is completed where guiding pays, whatever 
     CHECK(whole.field_status(MethodId::Precomputed)->precomputed_share == 1.0);
     CHECK(whole.pass_replay(slot_of(whole)).is_guided(0));
     Session stopped = make_session(scene, settings, 1);
-    int stops = 0;
-    for (int i = 0; stopped.passes(slot_of(stopped)) < 2; ++i) {
-        StopFlag stop = true;
-        if (i % 2 == 0)
-            stops += stopped.advance(slot_of(stopped), &stop) == Progress::Stopped ? 1 : 0;
-        else
-            advance_interrupted(stopped, 0.6f);
-    }
-    CHECK(stops > 0);
+    CHECK(render_with_stops(stopped, 2) > 0);
     CHECK(same_state(state_of(whole), state_of(stopped)));
 }
 
