@@ -10,12 +10,12 @@
 
 namespace pl {
 
-/// The grids of a range of sides; numbers of grids, cells and lists start from 0 in each.
+/// The grids and cells of some sides, whose places number them from 0 for each of these pieces.
 struct GridPieces {
-    std::vector<VolumePlace> sides;
+    std::vector<std::uint32_t> sides;  ///< those whose places are of kind Grid or Cell
     std::vector<SideGrid> grids;
     std::vector<VolumeCell> cells;       ///< of grids
-    std::vector<VolumeCell> side_cells;  ///< of whole sides: the entries of `sides` of kind Cell number these
+    std::vector<VolumeCell> side_cells;  ///< of whole sides
     std::vector<std::uint32_t> lists;
 };
 
@@ -23,7 +23,10 @@ struct GridPieces {
 /// once.
 class GridJoiner {
 public:
-    GridJoiner() : known_(16, Hash{&grid_.lists}, Same{&grid_.lists}) {}
+    /// `places`: [side], those of kind Grid or Cell with the numbers of their pieces.
+    explicit GridJoiner(std::vector<VolumePlace> places) : known_(16, Hash{&grid_.lists}, Same{&grid_.lists}) {
+        grid_.sides = std::move(places);
+    }
 
     void add(const GridPieces& pieces) {
         const auto grids = static_cast<std::uint32_t>(grid_.grids.size());
@@ -33,11 +36,12 @@ public:
             grid.first_cell += static_cast<std::int32_t>(cells);
             grid_.grids.push_back(grid);
         }
-        for (VolumePlace place : pieces.sides) {
-            if (place.kind() == VolumePlace::Kind::Grid) place = {place.kind(), place.number() + grids};
-            if (place.kind() == VolumePlace::Kind::Cell)
+        for (const std::uint32_t side : pieces.sides) {
+            VolumePlace& place = grid_.sides[side];
+            if (place.kind() == VolumePlace::Kind::Grid)
+                place = {place.kind(), place.number() + grids};
+            else
                 place = {place.kind(), side_cell(joined(pieces.side_cells[place.number()], pieces.lists))};
-            grid_.sides.push_back(place);
         }
     }
 

@@ -153,7 +153,7 @@ std::vector<LitSides> find_lit_sides(const HostScene& scene, const Surfaces& sur
 }
 
 LitSurfaces find_lit_surfaces(const HostScene& scene, int threads) {
-    LitSurfaces found{find_surfaces(scene), {}};
+    LitSurfaces found{find_surfaces(scene, threads), {}};
     found.lit = find_lit_sides(scene, found.surfaces, threads);
     return found;
 }

@@ -124,6 +124,11 @@ double NearestSets::reach_from(const Ball& ball) const {
     return (distance_above(nearest_.distance2) + 2.0 * ball.radius) * kWiden;
 }
 
+void NearestSets::set_margin(const Ball& ball) {
+    const double farthest = reach_from(ball) + ball.radius;
+    margin_ = 2.0 * (kDistanceError + kDoubleError) * farthest * farthest + kUnderflow;
+}
+
 /// Whether all candidates are among the known nodes; `nearest_` is the nearest of these.
 bool NearestSets::covers(const Neighborhood& known, const Ball& ball) const {
     if (nearest_.volume == kNoVolume) return false;
@@ -161,15 +166,28 @@ bool NearestSets::finds_nearest(const Neighborhood& known, const Ball& ball, Vec
     return covers(known, ball);
 }
 
-std::optional<std::uint32_t> NearestSets::find_only(const Ball& ball, Vec3f normal) {
-    const Neighborhood& known = known_[NormalTrees::cell_of(normal)];
+NearestSets::Only NearestSets::find_only(const Ball& ball, Vec3f normal) {
+    const std::size_t cell = NormalTrees::cell_of(normal);
+    if (trees_.tree_of(cell).nodes.empty()) return {.is_known = true};
+    const Neighborhood& known = known_[cell];
     if (!finds_nearest(known, ball, normal)) return {};
+    const KdNode& only = trees_.node_at(static_cast<std::uint32_t>(nearest_.volume));
     const float limit2 = squared_above(reach_from(ball));
-    const auto is_candidate = [&](const KdNode& node) {
-        return squared_distance(ball.center, node.position) <= limit2 && normals_agree(normal, node.normal);
-    };
-    if (std::ranges::count_if(known.nodes, is_candidate) > 1) return {};
-    return trees_.node_of(static_cast<std::uint32_t>(nearest_.volume));
+    set_margin(ball);
+    for (const KdNode& node : known.nodes)
+        if (node.volume != only.volume && squared_distance(ball.center, node.position) <= limit2 &&
+            normals_agree(normal, node.normal) && can_be_nearest_in(ball, node, only))
+            return {};
+    return {true, trees_.node_of(only.volume)};
+}
+
+/// Whether `node` may be as near as `other` to some point of the ball: the difference of squared distances is linear in the point.
+bool NearestSets::can_be_nearest_in(const Ball& ball, const KdNode& node, const KdNode& other) const {
+    const Vec3d center{ball.center};
+    const Vec3d to_node = Vec3d{node.position} - center;
+    const Vec3d to_other = Vec3d{other.position} - center;
+    return glm::dot(to_node, to_node) - glm::dot(to_other, to_other) <=
+           2.0 * ball.radius * glm::length(to_node - to_other) + margin_;
 }
 
 NearestSets::Answer NearestSets::gather(const FlatRegion& region, Vec3f normal) {
@@ -186,8 +204,7 @@ NearestSets::Answer NearestSets::gather(const FlatRegion& region, Vec3f normal) 
         for (const KdNode& node : known.nodes) result.consider(node, ball.center, normal);
     else
         search_kd_tree(tree, ball.center, normal, result);
-    const double farthest = reach + ball.radius;
-    margin_ = 2.0 * (kDistanceError + kDoubleError) * farthest * farthest + kUnderflow;
+    set_margin(ball);
     return result.left > 0 && candidates_.size() <= kMostGathered ? Answer::Few : Answer::TooMany;
 }
 

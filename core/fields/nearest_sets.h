@@ -3,12 +3,11 @@
 #pragma once
 
 #include <array>
-#include <optional>
 #include <vector>
 
 #include "core/fields/normal_trees.h"
 #include "core/fields/polygon.h"
-#include "core/kernel/guiding/volume_lookup.h"
+#include "core/kernel/guiding/volume_grid.h"
 
 namespace pl {
 
@@ -47,8 +46,13 @@ public:
     /// The set of all volumes that the search from some point of the region, with this normal, can return. The
     /// polygon must not be empty. Sets are exact up to a margin of a few roundoffs of the distances.
     Answer find(const FlatRegion& region, Vec3f normal);
-    /// The node of the only volume of that set for any region in the ball, if that is known without a search.
-    std::optional<std::uint32_t> find_only(const Ball& ball, Vec3f normal);
+    /// The only volume of that set for any region in the ball.
+    struct Only {
+        bool is_known = false;
+        std::uint32_t node = VolumePlace::kNone;  ///< kNone: no volume has an agreeing normal
+    };
+    /// Known without a search, or not.
+    Only find_only(const Ball& ball, Vec3f normal);
 
     /// Drops the neighborhoods of earlier searches, at the start of each chunk of work: the searches that reach the effort
     /// limit then do not depend on the distribution of chunks over threads.
@@ -84,6 +88,8 @@ private:
     bool covers(const Neighborhood& known, const Ball& ball) const;
     void explore(const KdTreeView& tree, Vec3f center, Neighborhood& known) const;
     Answer search(const KdTreeView& tree, const Ball& ball, Vec3f normal, Neighborhood& known);
+    void set_margin(const Ball& ball);
+    bool can_be_nearest_in(const Ball& ball, const KdNode& node, const KdNode& other) const;
     void drop_duplicates();
     bool can_be_nearest(const Candidate& candidate, const FlatRegion& region) const;
 

@@ -5,6 +5,7 @@
 #include <numeric>
 #include <utility>
 
+#include "core/base/parallel_chunks.h"
 #include "core/scene/triangle_planes.h"
 
 namespace pl {
@@ -17,32 +18,46 @@ struct Corners {
     std::vector<std::uint32_t> triangles;  ///< ascending for each point
 };
 
-/// Vertices at equal positions get the same number. +0 and -0 are equal.
-std::vector<std::uint32_t> number_positions(const std::vector<Vec3f>& positions, std::uint32_t& points) {
-    std::vector<std::uint32_t> order(positions.size());
-    std::iota(order.begin(), order.end(), 0u);
-    const auto less = [&](std::uint32_t a, std::uint32_t b) {
-        const Vec3f p = positions[a];
-        const Vec3f q = positions[b];
-        if (p.x != q.x) return p.x < q.x;
-        return p.y != q.y ? p.y < q.y : p.z < q.z;
-    };
-    std::sort(order.begin(), order.end(), less);
-    std::vector<std::uint32_t> number(positions.size());
-    points = 0;
-    for (std::size_t i = 0; i < order.size(); ++i) {
-        if (i > 0 && less(order[i - 1], order[i])) ++points;
-        number[order[i]] = points;
+/// Numbers of distinct positions, in a table with open addressing. +0 and -0 are equal.
+class PositionNumbers {
+public:
+    explicit PositionNumbers(std::size_t most) : slots_(std::bit_ceil(2 * most + 1), kFree) {}
+
+    std::uint32_t number_of(const Vec3f& position) {
+        const std::size_t mask = slots_.size() - 1;
+        for (std::size_t slot = hash(position) & mask;; slot = (slot + 1) & mask) {
+            if (slots_[slot] == kFree) {
+                slots_[slot] = count();
+                positions_.push_back(position);
+                return slots_[slot];
+            }
+            if (positions_[slots_[slot]] == position) return slots_[slot];
+        }
     }
-    if (!order.empty()) ++points;
-    return number;
-}
+    std::uint32_t count() const { return static_cast<std::uint32_t>(positions_.size()); }
+
+private:
+    static constexpr std::uint32_t kFree = 0xffffffffu;
+
+    static std::size_t hash(const Vec3f& position) {
+        std::uint64_t hash = 0;
+        for (int i = 0; i < 3; ++i) {
+            hash = (hash ^ std::bit_cast<std::uint32_t>(position[i] + 0.0f)) * 0x9E3779B97F4A7C15u;
+            hash ^= hash >> 32;
+        }
+        return hash;
+    }
+
+    std::vector<std::uint32_t> slots_;  ///< number of the position, or kFree
+    std::vector<Vec3f> positions_;      ///< [number]
+};
 
 Corners collect_corners(const HostScene& scene) {
     Corners corners;
-    std::uint32_t points = 0;
-    corners.point_of = number_positions(scene.positions, points);
-    corners.start.assign(points + 1, 0);
+    PositionNumbers numbers(scene.positions.size());
+    corners.point_of.reserve(scene.positions.size());
+    for (const Vec3f& position : scene.positions) corners.point_of.push_back(numbers.number_of(position));
+    corners.start.assign(numbers.count() + 1, 0);
     for (const Triangle& t : scene.triangles)
         for (const std::uint32_t v : {t.v0, t.v1, t.v2}) ++corners.start[corners.point_of[v] + 1];
     std::partial_sum(corners.start.begin(), corners.start.end(), corners.start.begin());
@@ -57,55 +72,58 @@ Corners collect_corners(const HostScene& scene) {
 
 class SurfaceGrower {
 public:
-    explicit SurfaceGrower(const HostScene& scene)
-        : scene_(scene), view_(scene.view()), corners_(collect_corners(scene)) {
+    SurfaceGrower(const HostScene& scene, int threads)
+        : scene_(scene), view_(scene.view()), corners_(collect_corners(scene)), areas_(scene.triangles.size()) {
+        for_indices(view_.triangles.count, threads, [&](std::uint32_t i) {
+            if (scene_.materials[scene_.triangles[i].material].reflects()) areas_[i] = area_of(view_, i);
+        });
         found_.of_triangle.assign(scene.triangles.size(), kNoSurface);
         last_visitor_.assign(corners_.start.size(), kNoSurface);
     }
 
     Surfaces grow_all() {
         for (std::uint32_t i = 0; i < scene_.triangles.size(); ++i)
-            if (found_.of_triangle[i] == kNoSurface && can_carry(i)) grow(i);
+            if (found_.of_triangle[i] == kNoSurface && areas_[i] > 0.0) grow(i);
+        for (std::uint32_t i = 0; i < scene_.triangles.size(); ++i)
+            if (const std::uint32_t number = found_.of_triangle[i]; number != kNoSurface) {
+                found_.list[number].triangles.push_back(i);
+                found_.list[number].area += areas_[i];
+            }
         return std::move(found_);
     }
 
 private:
-    bool can_carry(std::uint32_t triangle) const {
-        return scene_.materials[scene_.triangles[triangle].material].reflects() && area_of(view_, triangle) > 0.0;
-    }
-
     void grow(std::uint32_t seed) {
         const auto number = static_cast<std::uint32_t>(found_.list.size());
-        Surface surface;
-        surface.triangles.push_back(seed);
+        reached_.assign(1, seed);
         found_.of_triangle[seed] = number;
-        for (std::size_t next = 0; next < surface.triangles.size(); ++next) {
-            const Triangle& t = scene_.triangles[surface.triangles[next]];
-            for (const std::uint32_t v : {t.v0, t.v1, t.v2}) add_around(corners_.point_of[v], seed, number, surface);
+        for (std::size_t next = 0; next < reached_.size(); ++next) {
+            const Triangle& t = scene_.triangles[reached_[next]];
+            for (const std::uint32_t v : {t.v0, t.v1, t.v2}) add_around(corners_.point_of[v], seed, number);
         }
-        std::sort(surface.triangles.begin(), surface.triangles.end());
-        for (const std::uint32_t triangle : surface.triangles) surface.area += area_of(view_, triangle);
-        found_.list.push_back(std::move(surface));
+        found_.list.emplace_back().triangles.reserve(reached_.size());
     }
 
     /// Each surface visits the triangles around each point once, so that a fan of a million triangles takes linear
     /// time.
-    void add_around(std::uint32_t point, std::uint32_t seed, std::uint32_t number, Surface& surface) {
+    void add_around(std::uint32_t point, std::uint32_t seed, std::uint32_t number) {
         if (last_visitor_[point] == number) return;
         last_visitor_[point] = number;
         for (std::uint32_t i = corners_.start[point]; i < corners_.start[point + 1]; ++i) {
             const std::uint32_t triangle = corners_.triangles[i];
-            if (found_.of_triangle[triangle] != kNoSurface || !can_carry(triangle)) continue;
+            if (found_.of_triangle[triangle] != kNoSurface || !(areas_[triangle] > 0.0)) continue;
             if (glm::dot(view_.planes[triangle].normal, view_.planes[seed].normal) < kMinSurfaceCosine) continue;
             found_.of_triangle[triangle] = number;
-            surface.triangles.push_back(triangle);
+            reached_.push_back(triangle);
         }
     }
 
     const HostScene& scene_;
     SceneView view_;
     Corners corners_;
+    std::vector<double> areas_;  ///< [triangle]; 0 where it reflects nothing
     Surfaces found_;
+    std::vector<std::uint32_t> reached_;       ///< triangles of the surface that grows
     std::vector<std::uint32_t> last_visitor_;  ///< [point], the last surface that visited it
 };
 
@@ -115,6 +133,6 @@ double area_of(const SceneView& scene, std::uint32_t triangle) {
     return 0.5 * glm::length(TriangleCorners(scene.positions, scene.triangles[triangle]).cross());
 }
 
-Surfaces find_surfaces(const HostScene& scene) { return SurfaceGrower(scene).grow_all(); }
+Surfaces find_surfaces(const HostScene& scene, int threads) { return SurfaceGrower(scene, threads).grow_all(); }
 
 }  // namespace pl

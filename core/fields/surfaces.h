@@ -28,7 +28,7 @@ struct Surfaces {
 };
 
 /// Triangles are connected if they share a position, whether or not the file lists it twice.
-Surfaces find_surfaces(const HostScene& scene);
+Surfaces find_surfaces(const HostScene& scene, int threads = 1);
 
 /// Area of a triangle, in double.
 double area_of(const SceneView& scene, std::uint32_t triangle);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <utility>
 
 #include "core/base/work_queue.h"
@@ -117,26 +118,37 @@ Ball ball_around(const TriangleCorners& corners) {
 /// Builds the grids of one side after the other. One object per thread.
 class SideBuilder {
 public:
-    /// `own`: number of volumes placed on each side.
-    SideBuilder(const HostScene& scene, const HostVolumes& volumes, Span<const std::uint32_t> own, NormalTrees& trees)
+    /// `own`: number of volumes placed on each side. `places`: the entries of all sides.
+    SideBuilder(const HostScene& scene, const HostVolumes& volumes, Span<const std::uint32_t> own, NormalTrees& trees,
+                std::span<VolumePlace> places)
         : scene_(scene.view()), tree_{view_of(volumes.kd_nodes)}, sites_(view_of(volumes.sites)), own_(own),
-          sets_(trees) {}
+          sets_(trees), places_(places) {}
 
-    GridPieces build(IndexRange sides) {
+    /// Both sides of these entries of the hierarchy's triangles. Writes the places that need no grid and no list.
+    GridPieces build(IndexRange entries) {
         pieces_ = {};
         sets_.restart();
-        for (std::uint32_t side = sides.begin; side < sides.end; ++side) pieces_.sides.push_back(build_side(side));
+        for (std::uint32_t entry = entries.begin; entry < entries.end; ++entry)
+            build_triangle(scene_.bvh.triangles[entry].primitive);
         return std::move(pieces_);
     }
 
 private:
-    VolumePlace build_side(std::uint32_t side) {
-        const std::uint32_t triangles = scene_.triangles.count;
-        const std::uint32_t primitive = side < triangles ? side : side - triangles;
+    void build_triangle(std::uint32_t primitive) {
         const TriangleCorners corners{scene_.positions, scene_.triangles[primitive]};
-        normal_ = (side < triangles ? 1.0f : -1.0f) * scene_.planes[primitive].normal;
-        if (const auto node = sets_.find_only(ball_around(corners), normal_)) return {VolumePlace::Kind::Node, *node};
-        const FramedTriangle triangle(corners);
+        const Ball ball = ball_around(corners);
+        for (const bool front : {true, false}) {
+            const std::uint32_t side = front ? primitive : primitive + scene_.triangles.count;
+            normal_ = (front ? 1.0f : -1.0f) * scene_.planes[primitive].normal;
+            const NearestSets::Only only = sets_.find_only(ball, normal_);
+            places_[side] = only.is_known ? VolumePlace{VolumePlace::Kind::Node, only.node}
+                                          : place_of(side, FramedTriangle(corners));
+            const VolumePlace::Kind kind = places_[side].kind();
+            if (kind == VolumePlace::Kind::Cell || kind == VolumePlace::Kind::Grid) pieces_.sides.push_back(side);
+        }
+    }
+
+    VolumePlace place_of(std::uint32_t side, const FramedTriangle& triangle) {
         if (!triangle.is_flat()) return kSearch;
         sets_.set_effort(own_[side] > 0 ? kEffortWithVolumes : kEffort);
         most_entries_ = pieces_.lists.size() + kFreeEntries + std::size_t{kEntriesPerVolume} * own_[side];
@@ -233,6 +245,7 @@ private:
     Span<const SurfacePoint> sites_;
     Span<const std::uint32_t> own_;
     NearestSets sets_;
+    std::span<VolumePlace> places_;
     GridPieces pieces_;
     Vec3f normal_{0.0f};            ///< of the side under construction
     std::size_t most_entries_ = 0;  ///< of all lists, at the end of this side
@@ -258,17 +271,18 @@ HostVolumeGrid build_volume_grid(const HostScene& scene, const HostVolumes& volu
     if (!in_range(volumes)) return {};
     if (threads <= 0) threads = usable_threads();
     const std::vector<std::uint32_t> own = count_on_sides(scene, volumes);
-    const auto sides = static_cast<std::uint32_t>(own.size());
-    const std::uint32_t chunk = std::clamp(sides / 128u, 1u, 8192u);
-    std::vector<GridPieces> pieces((sides + chunk - 1) / chunk);
+    const auto entries = static_cast<std::uint32_t>(scene.bvh_triangles.size());
+    const std::uint32_t chunk = std::clamp(entries / 128u, 1u, 8192u);
+    std::vector<GridPieces> pieces((entries + chunk - 1) / chunk);
+    std::vector<VolumePlace> places(own.size(), kSearch);
     NormalTrees trees(view_of(volumes.kd_nodes));
-    ChunkQueue queue(0, sides, chunk);
+    ChunkQueue queue(0, entries, chunk);
     run_on_plain_threads(threads, [&](int) {
-        SideBuilder builder(scene, volumes, view_of(own), trees);
+        SideBuilder builder(scene, volumes, view_of(own), trees, places);
         for (IndexRange range = queue.claim(); !range.empty(); range = queue.claim())
             pieces[range.begin / chunk] = builder.build(range);
     });
-    GridJoiner joiner;
+    GridJoiner joiner(std::move(places));
     for (const GridPieces& piece : pieces) joiner.add(piece);
     return joiner.take();
 }
