@@ -1,11 +1,11 @@
 #include "core/fields/surfaces.h"
 
 #include <algorithm>
-#include <bit>
 #include <numeric>
 #include <utility>
 
 #include "core/base/parallel_chunks.h"
+#include "core/scene/position_numbers.h"
 #include "core/scene/triangle_planes.h"
 
 namespace pl {
@@ -16,40 +16,6 @@ struct Corners {
     std::vector<std::uint32_t> point_of;   ///< [vertex], number of its position
     std::vector<std::uint32_t> start;      ///< [point]; one more than there are points
     std::vector<std::uint32_t> triangles;  ///< ascending for each point
-};
-
-/// Numbers of distinct positions, in a table with open addressing. +0 and -0 are equal.
-class PositionNumbers {
-public:
-    explicit PositionNumbers(std::size_t most) : slots_(std::bit_ceil(2 * most + 1), kFree) {}
-
-    std::uint32_t number_of(const Vec3f& position) {
-        const std::size_t mask = slots_.size() - 1;
-        for (std::size_t slot = hash(position) & mask;; slot = (slot + 1) & mask) {
-            if (slots_[slot] == kFree) {
-                slots_[slot] = count();
-                positions_.push_back(position);
-                return slots_[slot];
-            }
-            if (positions_[slots_[slot]] == position) return slots_[slot];
-        }
-    }
-    std::uint32_t count() const { return static_cast<std::uint32_t>(positions_.size()); }
-
-private:
-    static constexpr std::uint32_t kFree = 0xffffffffu;
-
-    static std::size_t hash(const Vec3f& position) {
-        std::uint64_t hash = 0;
-        for (int i = 0; i < 3; ++i) {
-            hash = (hash ^ std::bit_cast<std::uint32_t>(position[i] + 0.0f)) * 0x9E3779B97F4A7C15u;
-            hash ^= hash >> 32;
-        }
-        return hash;
-    }
-
-    std::vector<std::uint32_t> slots_;  ///< number of the position, or kFree
-    std::vector<Vec3f> positions_;      ///< [number]
 };
 
 Corners collect_corners(const HostScene& scene) {

@@ -4,8 +4,11 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <span>
 #include <utility>
 
+#include "core/scene/position_numbers.h"
 #include "core/scene/triangle_planes.h"
 
 namespace pl {
@@ -13,6 +16,7 @@ namespace {
 
 constexpr double kPi64 = 3.14159265358979323846;
 constexpr int kBins = 12;
+constexpr std::uint32_t kNoLamp = 0xffffffffu;
 /// Deeper nodes are split in equal halves to bound the length of trails: up to 2^32 lights need 32 more levels.
 constexpr int kMostUnevenLevels = kMostLightLevels - 32;
 
@@ -89,14 +93,24 @@ struct LightItem {
     double area = 0.0;
 };
 
-/// Maps light centers along one axis to bins; monotone, so that equal centers share a bin.
+/// Lights that share corners: one lamp.
+struct Lamp {
+    LightBounds bounds{};
+    std::vector<LightItem> lights{};
+};
+
+/// A total order of lights, and of lamps.
+std::uint32_t number_of(const LightItem& item) { return item.light; }
+std::uint32_t number_of(const Lamp& lamp) { return lamp.lights.front().light; }
+
+/// Maps centers of lights or lamps along one axis to bins; monotone, so that equal centers share a bin.
 struct LightBinning {
     int axis;
     double low;
     double scale;
 
-    int operator()(const LightItem& item) const {
-        return std::min(static_cast<int>((item.bounds.center()[axis] - low) * scale), kBins - 1);
+    int operator()(const LightBounds& bounds) const {
+        return std::min(static_cast<int>((bounds.center()[axis] - low) * scale), kBins - 1);
     }
 };
 
@@ -106,74 +120,77 @@ struct LightSplit {
     double cost = std::numeric_limits<double>::infinity();
 };
 
+/// The upper nodes hold whole lamps: a dome around all others would hide them in every node that holds parts of it and of them, since
+/// the importance of a node knows its size and its power alone.
 class TreeBuilder {
 public:
-    TreeBuilder(std::vector<LightItem> items, HostScene& packed) : items_(std::move(items)), packed_(packed) {}
+    explicit TreeBuilder(HostScene& packed) : packed_(packed) {}
 
-    void build() {
-        packed_.light_nodes.reserve(2 * items_.size() - 1);
-        add_node(0, items_.size(), 0, 0);
-    }
+    void build(std::vector<Lamp> lamps) { add_node(std::span(lamps), 0, 0); }
 
 private:
-    void add_node(std::size_t first, std::size_t last, int level, std::uint64_t trail) {
+    template <class Item>
+    void add_node(std::span<Item> items, int level, std::uint64_t trail) {
+        if (items.size() == 1) return add_leaf(items.front(), level, trail);
         LightBounds bounds;
-        for (std::size_t i = first; i < last; ++i) bounds.add(items_[i].bounds);
+        for (const Item& item : items) bounds.add(item.bounds);
         const std::size_t node = packed_.light_nodes.size();
         packed_.light_nodes.push_back(packed_node(bounds));
-        if (last - first == 1) {
-            packed_.light_nodes[node].is_leaf = 1;
-            packed_.light_nodes[node].next = items_[first].light;
-            packed_.light_places[items_[first].light].trail = trail;
-            return;
-        }
-        const std::size_t middle = partition(first, last, level, bounds);
-        add_node(first, middle, level + 1, trail);
+        const std::size_t middle = partition(items, level, bounds);
+        add_node(items.first(middle), level + 1, trail);
         packed_.light_nodes[node].next = static_cast<std::uint32_t>(packed_.light_nodes.size());
-        add_node(middle, last, level + 1, trail | std::uint64_t{1} << level);
+        add_node(items.subspan(middle), level + 1, trail | std::uint64_t{1} << level);
+    }
+    void add_leaf(Lamp& lamp, int level, std::uint64_t trail) { add_node(std::span(lamp.lights), level, trail); }
+    void add_leaf(const LightItem& item, int, std::uint64_t trail) {
+        LightNode leaf = packed_node(item.bounds);
+        leaf.is_leaf = 1;
+        leaf.next = item.light;
+        packed_.light_nodes.push_back(leaf);
+        packed_.light_places[item.light].trail = trail;
     }
 
-    /// Partitions the lights between two children, neither of them empty; returns the begin of the second.
-    std::size_t partition(std::size_t first, std::size_t last, int level, const LightBounds& bounds) {
-        const auto begin = items_.begin() + static_cast<std::ptrdiff_t>(first);
-        const auto end = items_.begin() + static_cast<std::ptrdiff_t>(last);
-        const LightSplit split = level < kMostUnevenLevels ? best_split(first, last) : LightSplit{};
+    /// Partitions lights or lamps between two children, neither of them empty; returns the begin of the second.
+    template <class Item>
+    static std::size_t partition(std::span<Item> items, int level, const LightBounds& bounds) {
+        const LightSplit split = level < kMostUnevenLevels ? best_split<Item>(items) : LightSplit{};
         if (split.bin >= 0)
             return static_cast<std::size_t>(
-                std::partition(begin, end, [&](const LightItem& item) { return split.binning(item) <= split.bin; }) -
-                items_.begin());
+                std::partition(items.begin(), items.end(),
+                               [&](const Item& item) { return split.binning(item.bounds) <= split.bin; }) -
+                items.begin());
         const Vec3d size = bounds.high - bounds.low;
         const int axis = size.x >= size.y && size.x >= size.z ? 0 : (size.y >= size.z ? 1 : 2);
-        const std::size_t middle = first + (last - first) / 2;
-        std::nth_element(begin, items_.begin() + static_cast<std::ptrdiff_t>(middle), end,
-                         [axis](const LightItem& a, const LightItem& b) {
+        const std::size_t middle = items.size() / 2;
+        std::nth_element(items.begin(), items.begin() + static_cast<std::ptrdiff_t>(middle), items.end(),
+                         [axis](const Item& a, const Item& b) {
                              const double x = a.bounds.center()[axis];
                              const double y = b.bounds.center()[axis];
-                             return x != y ? x < y : a.light < b.light;
+                             return x != y ? x < y : number_of(a) < number_of(b);
                          });
         return middle;
     }
 
-    LightSplit best_split(std::size_t first, std::size_t last) const {
+    template <class Item>
+    static LightSplit best_split(std::span<const Item> items) {
         Vec3d low{std::numeric_limits<double>::infinity()};
         Vec3d high{-std::numeric_limits<double>::infinity()};
-        for (std::size_t i = first; i < last; ++i) {
-            low = glm::min(low, items_[i].bounds.center());
-            high = glm::max(high, items_[i].bounds.center());
+        for (const Item& item : items) {
+            low = glm::min(low, item.bounds.center());
+            high = glm::max(high, item.bounds.center());
         }
         LightSplit best;
         for (int axis = 0; axis < 3; ++axis) {
             if (!(high[axis] > low[axis])) continue;
-            const LightBinning binning{axis, low[axis], kBins / (high[axis] - low[axis])};
-            best_on_axis(binning, first, last, best);
+            best_on_axis({axis, low[axis], kBins / (high[axis] - low[axis])}, items, best);
         }
         return best;
     }
 
-    void best_on_axis(const LightBinning& binning, std::size_t first, std::size_t last, LightSplit& best) const {
+    template <class Item>
+    static void best_on_axis(const LightBinning& binning, std::span<const Item> items, LightSplit& best) {
         std::array<LightBounds, kBins> bins;
-        for (std::size_t i = first; i < last; ++i)
-            bins[static_cast<std::size_t>(binning(items_[i]))].add(items_[i].bounds);
+        for (const Item& item : items) bins[static_cast<std::size_t>(binning(item.bounds))].add(item.bounds);
         std::array<double, kBins> above{};  // cost of all bins above
         LightBounds sum;
         for (std::size_t i = kBins - 1; i > 0; --i) {
@@ -201,9 +218,38 @@ private:
                 .power = static_cast<float>(bounds.power)};
     }
 
-    std::vector<LightItem> items_;
     HostScene& packed_;
 };
+
+/// Lamps of connected lights, in the order of their first lights.
+std::vector<Lamp> lamps_of(const HostScene& packed, const std::vector<LightItem>& items) {
+    PositionNumbers positions(3 * items.size());
+    std::vector<std::uint32_t> corners;  // [light][corner], number of its position
+    corners.reserve(3 * items.size());
+    for (const LightItem& item : items) {
+        const Triangle& t = packed.triangles[packed.lights[item.light].primitive];
+        for (const std::uint32_t v : {t.v0, t.v1, t.v2}) corners.push_back(positions.number_of(packed.positions[v]));
+    }
+    std::vector<std::uint32_t> parents(positions.count());
+    std::iota(parents.begin(), parents.end(), 0u);
+    const auto root_of = [&](std::uint32_t position) {
+        while (parents[position] != position) position = parents[position] = parents[parents[position]];
+        return position;
+    };
+    for (std::size_t i = 0; i < corners.size(); ++i) parents[root_of(corners[i])] = root_of(corners[i - i % 3]);
+    std::vector<Lamp> lamps;
+    std::vector<std::uint32_t> lamp_of(positions.count(), kNoLamp);
+    for (std::size_t i = 0; i < items.size(); ++i) {
+        std::uint32_t& lamp = lamp_of[root_of(corners[3 * i])];
+        if (lamp == kNoLamp) {
+            lamp = static_cast<std::uint32_t>(lamps.size());
+            lamps.emplace_back();
+        }
+        lamps[lamp].lights.push_back(items[i]);
+        lamps[lamp].bounds.add(items[i].bounds);
+    }
+    return lamps;
+}
 
 LightItem item_of(const HostScene& packed, std::uint32_t light) {
     const std::uint32_t primitive = packed.lights[light].primitive;
@@ -266,7 +312,8 @@ void pack_light_tree(HostScene& packed) {
         item.bounds.power /= total;
         packed.light_places.push_back({.pdf_area = static_cast<float>(share / item.area)});
     }
-    TreeBuilder(std::move(items), packed).build();
+    packed.light_nodes.reserve(2 * items.size() - 1);
+    TreeBuilder(packed).build(lamps_of(packed, items));
     mark_clusters(packed);
 }
 

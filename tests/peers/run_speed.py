@@ -1,13 +1,16 @@
 #!/usr/bin/env python3
-"""Paths per second of processor time of pathlight's `default` and of Mitsuba 3's `path`, in turn in one run.
+"""Paths per second of processor time, and noise by that time, of pathlight's methods and of Mitsuba 3's `path`, in turn in one run.
 
     run_speed.py SCENE.xml --program PATHLIGHT --folder DIR [--variant llvm_ad_rgb] [--spp 32] [--rounds 5]
 
 DIR gets a virtual environment with Mitsuba from PyPI. Its LLVM variants look for the library at DRJIT_LIBLLVM_PATH, if that is set.
-Times are without loading and compiling: pathlight's is the difference of two renderings, Mitsuba's first picture does not count. Both
-sample lights, and play roulette from the third or fourth vertex on. Exit code 77: Mitsuba cannot be installed here.
+Times are without loading and compiling, with placing and learning: pathlight's is the difference to a picture of `default` with one sample,
+Mitsuba's first picture does not count. Both sample lights, and play roulette from the third or fourth vertex on. Noise is the variance
+of a channel over the rounds by the squared mean of all pictures of the renderer, in the mean over the picture, whole and without the worst
+thousandth; it is independent of a difference of the models. Exit code 77: Mitsuba cannot be installed here.
 """
 import argparse
+import math
 import os
 import re
 import resource
@@ -16,6 +19,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+from pictures import read_pfm
 from run_peers import PEERS, python_with
 
 MITSUBA = r"""
@@ -29,17 +33,22 @@ for number, line in enumerate(sys.stdin):
     picture = mitsuba.render(scene, spp=spp, seed=number)
     mitsuba.Bitmap(picture)  # waits for the picture
     seconds = resource.getrusage(resource.RUSAGE_SELF).ru_utime - before
+    mitsuba.Bitmap(picture[:, :, :3]).write(sys.argv[4])
     height, width = picture.shape[:2]
     print(width, height, seconds, flush=True)
 """
+METHODS = ("default", "reinforcement")
+EPSILON = 0.01  # as in core/measure/metrics.h
 
 
 def for_mitsuba(scene, folder):
-    """A copy beside the original, so that its files are found: with `path` in place of other integrators, and without properties
-    that Mitsuba 3 does not know."""
+    """A copy beside the original, so that its files are found: with `path` in place of other integrators, the box filter of pathlight in
+    place of others, which spread samples over several pixels, and without properties that Mitsuba 3 does not know."""
     text = scene.read_text()
     path = '<integrator type="path"><integer name="max_depth" value="10"/><integer name="rr_depth" value="4"/></integrator>'
     text = re.sub(r"<integrator\b.*?</integrator>", path, text, count=1, flags=re.DOTALL)
+    text = re.sub(r"<rfilter\b.*?(/>|</rfilter>)", "", text, flags=re.DOTALL)
+    text = re.sub(r"(<film\b[^>]*>)", r'\1<rfilter type="box"/>', text)
     text = re.sub(r'<\w+ name="ext_?[eE]ta"[^>]*/>', "", text)
     copy = folder / scene.name
     copy.write_text(text)
@@ -50,28 +59,46 @@ def for_mitsuba(scene, folder):
     return copy
 
 
+class Renderer:
+    """Pictures of a renderer, and the seconds of processor time that each took."""
+    def __init__(self, name):
+        self.name, self.pictures, self.seconds = name, [], []
+
+    def add(self, picture, seconds):
+        self.pictures.append(read_pfm(picture)[2])
+        self.seconds.append(seconds)
+
+    def noise(self):
+        """Mean of the variance by the squared mean, of all channels and of all but the worst thousandth."""
+        terms = []
+        for values in zip(*self.pictures):
+            mean = statistics.fmean(values)
+            variance = sum((value - mean) ** 2 for value in values) / (len(values) - 1)
+            terms.append(variance / (mean * mean + EPSILON))
+        terms.sort()
+        return statistics.fmean(terms), statistics.fmean(terms[:math.ceil(0.999 * len(terms))])
+
+
 class Mitsuba:
-    def __init__(self, python, scene, variant, spp):
-        self.process = subprocess.Popen([python, "-c", MITSUBA, scene, variant, str(spp)], stdin=subprocess.PIPE,
+    def __init__(self, python, scene, variant, spp, picture):
+        self.process = subprocess.Popen([python, "-c", MITSUBA, scene, variant, str(spp), picture], stdin=subprocess.PIPE,
                                         stdout=subprocess.PIPE, text=True)
-        self.spp = spp
         self.size, _ = self.render()
 
     def render(self):
-        """Size of the picture, and paths per second."""
+        """Size of the picture, and seconds of processor time."""
         self.process.stdin.write("render\n")
         self.process.stdin.flush()
         words = self.process.stdout.readline().split()
         if len(words) != 3:
             sys.exit("Mitsuba has ended; LLVM variants may need another library, see DRJIT_LIBLLVM_PATH")
-        width, height, seconds = int(words[0]), int(words[1]), float(words[2])
-        return (width, height), width * height * self.spp / seconds
+        return (int(words[0]), int(words[1])), float(words[2])
 
 
-def pathlight_seconds(program, scene, size, spp, output):
+def pathlight_seconds(program, scene, size, spp, method, seed, output):
     before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
-    subprocess.run([program, "render", scene, "--size", f"{size[0]}x{size[1]}", "--spp", str(spp), "--method", "default",
-                    "--max-depth", "10", "-o", output], check=True, capture_output=True)
+    subprocess.run([program, "render", scene, "--size", f"{size[0]}x{size[1]}", "--spp", str(spp), "--method", method,
+                    "--seed", str(seed), "--max-depth", "10", "-o", output], check=True, capture_output=True)
     return resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before
 
 
@@ -86,20 +113,31 @@ def main():
     options = parser.parse_args()
     folder = options.folder.resolve()
     (folder / "speed").mkdir(parents=True, exist_ok=True)
+    picture = folder / "speed.pfm"
     mitsuba = Mitsuba(python_with(PEERS["mitsuba"][0], folder), for_mitsuba(options.scene.resolve(), folder / "speed"),
-                      options.variant, options.spp)
-    ours, theirs = [], []
-    for _ in range(options.rounds):
-        theirs.append(mitsuba.render()[1])
-        few, many = (pathlight_seconds(options.program, options.scene, mitsuba.size, spp, folder / "speed.pfm")
-                     for spp in (1, 1 + options.spp))
-        ours.append(mitsuba.size[0] * mitsuba.size[1] * options.spp / (many - few))
-    ratios = sorted(a / b for a, b in zip(ours, theirs))
-    print(f"{options.scene.name}, {mitsuba.size[0]} x {mitsuba.size[1]}, {options.spp} samples, {options.rounds} rounds, "
-          f"{os.cpu_count()} threads")
-    print(f"  pathlight default                {statistics.median(ours) / 1e6:.3f} Mpaths per second of processor time")
-    print(f"  Mitsuba path, {options.variant:<18} {statistics.median(theirs) / 1e6:.3f}")
-    print(f"  ratio                            {statistics.median(ratios):.2f} [{ratios[0]:.2f}, {ratios[-1]:.2f}]")
+                      options.variant, options.spp, picture)
+    peer = Renderer(f"Mitsuba path, {options.variant}")
+    ours = [Renderer(method) for method in METHODS]
+    for seed in range(options.rounds):
+        peer.add(picture, mitsuba.render()[1])
+        loading = pathlight_seconds(options.program, options.scene, mitsuba.size, 1, "default", seed, picture)
+        for renderer in ours:
+            seconds = pathlight_seconds(options.program, options.scene, mitsuba.size, 1 + options.spp, renderer.name, seed,
+                                        picture)
+            renderer.add(picture, seconds - loading)
+    report(options, mitsuba.size, peer, ours)
+
+
+def report(options, size, peer, ours):
+    paths = size[0] * size[1] * options.spp
+    print(f"{options.scene.name}, {size[0]} x {size[1]}, {options.spp} samples, {options.rounds} rounds, {os.cpu_count()} threads")
+    print("  renderer                   Mpaths/s of processor time   relMSE x seconds   without the worst 0.1 %   to Mitsuba's: speed")
+    for renderer in [peer, *ours]:
+        seconds = statistics.median(renderer.seconds)
+        ratios = sorted(theirs / own for theirs, own in zip(peer.seconds, renderer.seconds))
+        whole, trimmed = (noise * seconds for noise in renderer.noise())
+        print(f"  {renderer.name:<26} {paths / seconds / 1e6:26.3f} {whole:18.4f} {trimmed:25.4f}"
+              f"   {statistics.median(ratios):.2f} [{ratios[0]:.2f}, {ratios[-1]:.2f}]")
 
 
 if __name__ == "__main__":

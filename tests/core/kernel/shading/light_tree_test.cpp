@@ -172,6 +172,30 @@ TEST_CASE("Below a long row of lamps the near ones get the samples") {
     CHECK(by_tree.variance() < 0.05 * by_power.variance());
 }
 
+// A node with parts of the dome and a lamp has the size of the dome: the lamps get a tenth of their share where the tree mixes them.
+TEST_CASE("A dome around lamps leaves them their share of the samples") {
+    SceneDescription scene;
+    scene.materials = {gray(), gray()};
+    scene.materials[0].emission = Vec3f{0.3f};
+    scene.materials[1].emission = Vec3f{9.0f};
+    add_spiky_sphere(scene, 16, 32, 100.0f, 100.0f, 1);
+    for (const float x : {-3.0f, 1.0f})
+        add_quad(scene, add_vertex(scene, {x, 5, 0}), add_vertex(scene, {x + 2, 5, 0}),
+                 add_vertex(scene, {x + 2, 5, 1}), add_vertex(scene, {x, 5, 1}), 1);
+    const HostScene packed = pack_scene(scene);
+    const SceneView view = packed.view();
+    const SurfacePoint surface = receiver_at({0.5f, 0, 1}, {0, 1, 0});
+    const double irradiance_of_dome = 0.3 * 3.141592653589793;
+    const double share = 1.0 - irradiance_of_dome / summed_irradiance(view, surface);
+    double chosen = 0.0;
+    for (std::uint32_t light = view.lights.count - 4; light < view.lights.count; ++light)
+        chosen += static_cast<double>(light_probability(view.light_tree, light, surface.position));
+    INFO("share " << share << ", chosen " << chosen);
+    CHECK(share > 0.3);
+    CHECK(chosen > 0.5 * share);
+    CHECK(chosen < 2.0 * share);
+}
+
 // Every corner of a light that sees a point with its front bounds the light from below.
 TEST_CASE("No light that shines on a point is ever left out") {
     const HostScene packed = pack_scene(scattered_lights());

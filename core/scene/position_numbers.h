@@ -1,0 +1,48 @@
+// Numbers of distinct positions: files list the corners of neighboring triangles more than once.
+#pragma once
+
+#include <bit>
+#include <cstdint>
+#include <vector>
+
+#include "core/kernel/base/math.h"
+
+namespace pl {
+
+/// A table with open addressing. +0 and -0 are equal.
+class PositionNumbers {
+public:
+    /// For up to `most` calls of number_of().
+    explicit PositionNumbers(std::size_t most) : slots_(std::bit_ceil(2 * most + 1), kFree) {}
+
+    /// The number of a position: positions are numbered from 0 in the order of their first calls.
+    std::uint32_t number_of(const Vec3f& position) {
+        const std::size_t mask = slots_.size() - 1;
+        for (std::size_t slot = hash(position) & mask;; slot = (slot + 1) & mask) {
+            if (slots_[slot] == kFree) {
+                slots_[slot] = count();
+                positions_.push_back(position);
+                return slots_[slot];
+            }
+            if (positions_[slots_[slot]] == position) return slots_[slot];
+        }
+    }
+    std::uint32_t count() const { return static_cast<std::uint32_t>(positions_.size()); }
+
+private:
+    static constexpr std::uint32_t kFree = 0xffffffffu;
+
+    static std::size_t hash(const Vec3f& position) {
+        std::uint64_t hash = 0;
+        for (int i = 0; i < 3; ++i) {
+            hash = (hash ^ std::bit_cast<std::uint32_t>(position[i] + 0.0f)) * 0x9E3779B97F4A7C15u;
+            hash ^= hash >> 32;
+        }
+        return hash;
+    }
+
+    std::vector<std::uint32_t> slots_;  ///< number of the position, or kFree
+    std::vector<Vec3f> positions_;      ///< [number]
+};
+
+}  // namespace pl
