@@ -148,6 +148,7 @@ private:
         if (!point.bsdf.scatters()) return PathEnd::Absorbed;
         State state = before;
         if (++state.vertices >= context_.settings.max_depth) return PathEnd::DepthLimit;
+        if (point.bsdf.is_specular()) count_specular(context_.settings, state);
         const VertexNumbers numbers = draw_vertex_numbers<kAll>(context_.settings, before);
         if (context_.settings.next_event != 0) vertex.light = light_sample(point, numbers.light, before);
         const Continuation next =
@@ -174,7 +175,7 @@ private:
     /// `before` and `after` roulette.
     RouletteRecord roulette_record(const Continuation& next, const State& before, const State& after) const {
         RouletteRecord record{.estimate = choices_.estimate, .branches = next.branches};
-        if (after.vertices < context_.settings.roulette_start) return record;
+        if (counted_vertices(after) < context_.settings.roulette_start) return record;
         const float factor = max_component(after.throughput) / max_component(before.throughput);
         // Roulette that ends a path leaves its state as it was.
         record.expected_branches = next.branches == 0 || !(factor > 0.0f)

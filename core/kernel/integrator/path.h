@@ -25,8 +25,9 @@ enum class RouletteRule : std::uint32_t {
 struct PathSettings {
     std::uint64_t seed = 1;
     Stream stream = Stream::Picture;
-    std::uint32_t max_depth = 64;       ///< most surface vertices of a path; longer ones are truncated and counted
-    std::uint32_t roulette_start = 3;   ///< surface vertices after which Russian roulette may end a path
+    std::uint32_t max_depth = 64;  ///< most surface vertices of a path; longer ones are truncated and counted
+    std::uint32_t roulette_start =
+        3;  ///< vertices after which Russian roulette may end a path, see counted_vertices()
     float roulette_threshold = 1.0f;    ///< contribution estimate below which a path plays roulette
     float split_threshold = kInfinity;  ///< contribution estimate above which it is split, if the method can
     RouletteRule roulette = RouletteRule::Spare;
@@ -50,6 +51,12 @@ struct SpecularChain {
     float distance = 0.0f;
     bool is_open = false;  ///< the chain has at least one vertex
 };
+
+/// The specular vertices of a path until it first plays roulette, up to a limit.
+struct SpecularCount {
+    std::uint32_t vertices = 0;
+};
+struct NoSpecularCount {};
 
 /// Whether paths know the glass around them, see medium.h.
 template <FeatureSet F>
@@ -89,6 +96,7 @@ struct PathState {
     std::uint32_t sample = 0;
     std::uint32_t vertices = 0;  ///< surface vertices so far
     [[no_unique_address]] std::conditional_t<F.has_any(kLobeFeatures), SpecularChain, Nothing> chain{};
+    [[no_unique_address]] std::conditional_t<F.has_any(kLobeFeatures), SpecularCount, NoSpecularCount> specular{};
     [[no_unique_address]] std::conditional_t<kTracksMedium<F>, PathMedium, NoPathMedium> medium{};
     [[no_unique_address]] LightChoiceOf<F, M> lights{};  ///< at the vertex of direction_pdf_sa
     [[no_unique_address]] typename M::Memory memory{};

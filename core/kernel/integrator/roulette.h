@@ -8,6 +8,24 @@ namespace pl {
 /// Roulette never ends more than 9 of 10 paths at once, which bounds its weight.
 inline constexpr float kMinSurvival = 0.1f;
 
+/// Most specular vertices that are left out of the count of vertices before roulette: mirrors that face one another end paths, too.
+inline constexpr std::uint32_t kMostSpecularBeforeRoulette = 8;
+
+/// The vertices so far that count for PathSettings::roulette_start. Specular ones do not: behind glass or in a mirror the first
+/// surface that absorbs is the one that a pixel shows, however dark it is.
+template <FeatureSet F, class M>
+PL_HD inline std::uint32_t counted_vertices(const PathState<F, M>& state) {
+    if constexpr (F.has_any(kLobeFeatures)) return state.vertices - state.specular.vertices;
+    return state.vertices;
+}
+
+/// Counts the last vertex of `state`, which is specular, until the path first plays roulette.
+template <FeatureSet F, class M>
+PL_HD inline void count_specular(const PathSettings& settings, PathState<F, M>& state) {
+    const bool has_played = counted_vertices(state) > settings.roulette_start;
+    if (!has_played && state.specular.vertices < kMostSpecularBeforeRoulette) ++state.specular.vertices;
+}
+
 /// Survival probability for a contribution estimate. Estimates by a field may be wrong, most of all early; with
 /// RouletteRule::Spare they can keep a path but not end it sooner than the albedos alone would: weights then grow no
 /// faster than reflection reduces them, and their variance stays finite. RouletteRule::Field uses the field's
@@ -45,7 +63,7 @@ PL_HD inline Continuation play_roulette(const M& method, const PathSettings& set
     state.survival *= max_component(albedo);
     const float estimate =
         method.estimate_contribution(vertex, albedo, state.throughput, state.survival, state.expectation);
-    if (state.vertices < settings.roulette_start) return {.branches = 1};
+    if (counted_vertices(state) < settings.roulette_start) return {.branches = 1};
     if constexpr (SplittingMethod<M>) {
         // Forks remember no medium: paths inside of glass are not split.
         if (estimate > settings.split_threshold && state.branches.room() > 1 && medium_of(state) == kNoMedium)

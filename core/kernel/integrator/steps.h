@@ -188,6 +188,9 @@ PL_HD_INLINED PathStatus shade_hit(const PathContext<M>& context, const Hit& hit
         .emitted = emitted, .albedo = bsdf.albedo(), .direction_share = direction_share, .distance = hit.t};
     const typename M::Vertex vertex = observe_vertex<F>(context.method, surface, bsdf, observation, state, out);
     ++state.vertices;
+    if constexpr (F.has_any(kLobeFeatures)) {
+        if (bsdf.is_specular()) count_specular(context.settings, state);
+    }
     if (!bsdf.scatters()) return PathStatus::Finished;
     if (state.vertices >= context.settings.max_depth) {
         ++out.counters.truncated;

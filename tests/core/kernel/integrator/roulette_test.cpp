@@ -187,3 +187,38 @@ TEST_CASE("Branches wait in the order of their vertices, the newest first, and d
     CHECK(state.branches.number == kMostForks * (kMostForks + 1) / 2);
     CHECK(*drawn.rbegin() < (1u << 24));
 }
+
+namespace {
+
+/// Vertices of a path until roulette may end it, of which the first ones are specular; all absorb nearly everything.
+std::uint32_t vertices_before_roulette(const PathSettings& settings, std::uint32_t specular) {
+    PathState<kLobeFeatures, DefaultMethod> state;
+    for (;;) {
+        ++state.vertices;
+        if (state.vertices <= specular) count_specular(settings, state);
+        constexpr float kAlmostOne = 0.999999f;
+        if (play_roulette(DefaultMethod{}, settings, {}, Vec3f{0.01f}, kAlmostOne, state).branches == 0)
+            return state.vertices - 1;
+    }
+}
+
+}  // namespace
+
+TEST_CASE("Specular vertices do not count for the start of roulette, but for many of them") {
+    const PathSettings settings{.roulette_start = 3};
+    CHECK(vertices_before_roulette(settings, 0) == 2);
+    CHECK(vertices_before_roulette(settings, 1) == 3);
+    CHECK(vertices_before_roulette(settings, 4) == 6);
+    CHECK(vertices_before_roulette(settings, kMostSpecularBeforeRoulette) == 2 + kMostSpecularBeforeRoulette);
+    CHECK(vertices_before_roulette(settings, 1000) == 2 + kMostSpecularBeforeRoulette);
+}
+
+TEST_CASE("Specular vertices behind the first roulette count as others do") {
+    const PathSettings settings{.roulette_start = 3};
+    PathState<kLobeFeatures, DefaultMethod> state;
+    state.vertices = 3;
+    play_roulette(DefaultMethod{}, settings, {}, Vec3f{1.0f}, 0.0f, state);
+    state.vertices = 4;
+    count_specular(settings, state);
+    CHECK(counted_vertices(state) == 4);
+}
