@@ -124,17 +124,18 @@ def main():
         for renderer in ours:
             seconds = pathlight_seconds(options.program, options.scene, mitsuba.size, 1 + options.spp, renderer.name, seed,
                                         picture)
-            renderer.add(picture, seconds - loading)
+            renderer.add(picture, (seconds - loading) * (1 + options.spp) / options.spp)
     report(options, mitsuba.size, peer, ours)
 
 
 def report(options, size, peer, ours):
-    paths = size[0] * size[1] * options.spp
     print(f"{options.scene.name}, {size[0]} x {size[1]}, {options.spp} samples, {options.rounds} rounds, {os.cpu_count()} threads")
     print("  renderer                   Mpaths/s of processor time   relMSE x seconds   without the worst 0.1 %   to Mitsuba's: speed")
     for renderer in [peer, *ours]:
+        samples = options.spp if renderer is peer else 1 + options.spp
+        paths = size[0] * size[1] * samples
         seconds = statistics.median(renderer.seconds)
-        ratios = sorted(theirs / own for theirs, own in zip(peer.seconds, renderer.seconds))
+        ratios = sorted(theirs / own * samples / options.spp for theirs, own in zip(peer.seconds, renderer.seconds))
         whole, trimmed = (noise * seconds for noise in renderer.noise())
         print(f"  {renderer.name:<26} {paths / seconds / 1e6:26.3f} {whole:18.4f} {trimmed:25.4f}"
               f"   {statistics.median(ratios):.2f} [{ratios[0]:.2f}, {ratios[-1]:.2f}]")
