@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/fields/placement_storage.h"
+#include "core/kernel/base/hash.h"
 
 namespace pl {
 
@@ -56,10 +57,9 @@ private:
     struct Hash {
         const Lists* lists;
         std::size_t operator()(std::uint32_t first) const {
-            std::uint64_t hash = 0;
+            std::uint32_t hash = 0;
             for (std::uint32_t i = first;; ++i) {
-                hash = (hash ^ (*lists)[i]) * 0x9E3779B97F4A7C15u;
-                hash ^= hash >> 32;
+                hash = hash_word(hash, (*lists)[i]);
                 if (((*lists)[i] & kLastOfList) != 0) return hash;
             }
         }

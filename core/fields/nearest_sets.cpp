@@ -124,8 +124,8 @@ double NearestSets::reach_from(const Ball& ball) const {
     return (distance_above(nearest_.distance2) + 2.0 * ball.radius) * kWiden;
 }
 
-void NearestSets::set_margin(const Ball& ball) {
-    const double farthest = reach_from(ball) + ball.radius;
+/// For points up to `farthest` from the volumes.
+void NearestSets::set_margin(double farthest) {
     margin_ = 2.0 * (kDistanceError + kDoubleError) * farthest * farthest + kUnderflow;
 }
 
@@ -172,8 +172,9 @@ NearestSets::Only NearestSets::find_only(const Ball& ball, Vec3f normal) {
     const Neighborhood& known = known_[cell];
     if (!finds_nearest(known, ball, normal)) return {};
     const KdNode& only = trees_.node_at(static_cast<std::uint32_t>(nearest_.volume));
-    const float limit2 = squared_above(reach_from(ball));
-    set_margin(ball);
+    const double reach = reach_from(ball);
+    const float limit2 = squared_above(reach);
+    set_margin(reach + ball.radius);
     for (const KdNode& node : known.nodes)
         if (node.volume != only.volume && squared_distance(ball.center, node.position) <= limit2 &&
             normals_agree(normal, node.normal) && can_be_nearest_in(ball, node, only))
@@ -204,7 +205,7 @@ NearestSets::Answer NearestSets::gather(const FlatRegion& region, Vec3f normal) 
         for (const KdNode& node : known.nodes) result.consider(node, ball.center, normal);
     else
         search_kd_tree(tree, ball.center, normal, result);
-    set_margin(ball);
+    set_margin(reach + ball.radius);
     return result.left > 0 && candidates_.size() <= kMostGathered ? Answer::Few : Answer::TooMany;
 }
 

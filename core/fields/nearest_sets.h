@@ -88,7 +88,7 @@ private:
     bool covers(const Neighborhood& known, const Ball& ball) const;
     void explore(const KdTreeView& tree, Vec3f center, Neighborhood& known) const;
     Answer search(const KdTreeView& tree, const Ball& ball, Vec3f normal, Neighborhood& known);
-    void set_margin(const Ball& ball);
+    void set_margin(double farthest);
     bool can_be_nearest_in(const Ball& ball, const KdNode& node, const KdNode& other) const;
     void drop_duplicates();
     bool can_be_nearest(const Candidate& candidate, const FlatRegion& region) const;

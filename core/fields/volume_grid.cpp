@@ -124,7 +124,8 @@ public:
         : scene_(scene.view()), tree_{view_of(volumes.kd_nodes)}, sites_(view_of(volumes.sites)), own_(own),
           sets_(trees), places_(places) {}
 
-    /// Both sides of these entries of the hierarchy's triangles. Writes the places that need no grid and no list.
+    /// Builds both sides of these entries of the hierarchy's triangles, and writes their places. Those of kind Grid or Cell number
+    /// the grids and cells of the pieces that are returned.
     GridPieces build(IndexRange entries) {
         pieces_ = {};
         sets_.restart();

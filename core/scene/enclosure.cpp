@@ -1,11 +1,13 @@
 #include "core/scene/enclosure.h"
-#include "core/scene/glass.h"
 
 #include <algorithm>
 #include <array>
-#include <numeric>
 #include <tuple>
 #include <utility>
+
+#include "core/scene/connections.h"
+#include "core/scene/glass.h"
+#include "core/scene/position_numbers.h"
 
 namespace pl {
 namespace {
@@ -18,26 +20,15 @@ struct Edge {
     auto ends() const { return std::tie(low, high); }
 };
 
-/// [position] -> number of the first equal position.
-std::vector<std::uint32_t> places_of(const std::vector<glm::vec3>& positions) {
-    const auto at = [&](std::uint32_t i) { return std::tie(positions[i].x, positions[i].y, positions[i].z); };
-    std::vector<std::uint32_t> order(positions.size());
-    std::iota(order.begin(), order.end(), 0u);
-    std::sort(order.begin(), order.end(), [&](std::uint32_t i, std::uint32_t j) { return at(i) < at(j); });
-    std::vector<std::uint32_t> places(positions.size());
-    for (std::size_t i = 0; i < order.size(); ++i) {
-        const bool is_same = i > 0 && at(order[i]) == at(order[i - 1]);
-        places[order[i]] = is_same ? places[order[i - 1]] : order[i];
-    }
-    return places;
-}
-
 /// Opaque: neither a dielectric nor with holes or partial opacity.
 bool is_solid(const MaterialDescription& material) { return !is_glass(material.kind) && !material.may_have_holes(); }
 
 /// Edges of all opaque triangles with an area, sorted by their ends.
 std::vector<Edge> edges_of(const SceneDescription& scene) {
-    const std::vector<std::uint32_t> places = places_of(scene.positions);
+    PositionNumbers numbers(scene.positions.size());
+    std::vector<std::uint32_t> places;  // [position], the same for equal ones
+    places.reserve(scene.positions.size());
+    for (const glm::vec3& position : scene.positions) places.push_back(numbers.number_of(Vec3f{position}));
     std::vector<Edge> edges;
     edges.reserve(3 * scene.triangles.size());
     for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) {
@@ -54,20 +45,6 @@ std::vector<Edge> edges_of(const SceneDescription& scene) {
     std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) { return a.ends() < b.ends(); });
     return edges;
 }
-
-/// Connected components of triangles (union-find).
-class Connections {
-public:
-    explicit Connections(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0u); }
-    std::uint32_t root(std::uint32_t i) {
-        while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-        return i;
-    }
-    void join(std::uint32_t i, std::uint32_t j) { parent_[root(i)] = root(j); }
-
-private:
-    std::vector<std::uint32_t> parent_;
-};
 
 /// Ray-triangle test in double. Comparisons with 0 only, so that it is independent of scale.   [Moeller and Trumbore
 /// 1997]

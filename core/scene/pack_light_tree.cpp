@@ -4,10 +4,10 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <span>
 #include <utility>
 
+#include "core/scene/connections.h"
 #include "core/scene/position_numbers.h"
 #include "core/scene/triangle_planes.h"
 
@@ -230,17 +230,12 @@ std::vector<Lamp> lamps_of(const HostScene& packed, const std::vector<LightItem>
         const Triangle& t = packed.triangles[packed.lights[item.light].primitive];
         for (const std::uint32_t v : {t.v0, t.v1, t.v2}) corners.push_back(positions.number_of(packed.positions[v]));
     }
-    std::vector<std::uint32_t> parents(positions.count());
-    std::iota(parents.begin(), parents.end(), 0u);
-    const auto root_of = [&](std::uint32_t position) {
-        while (parents[position] != position) position = parents[position] = parents[parents[position]];
-        return position;
-    };
-    for (std::size_t i = 0; i < corners.size(); ++i) parents[root_of(corners[i])] = root_of(corners[i - i % 3]);
+    Connections connections(positions.count());
+    for (std::size_t i = 0; i < corners.size(); ++i) connections.join(corners[i], corners[i - i % 3]);
     std::vector<Lamp> lamps;
     std::vector<std::uint32_t> lamp_of(positions.count(), kNoLamp);
     for (std::size_t i = 0; i < items.size(); ++i) {
-        std::uint32_t& lamp = lamp_of[root_of(corners[3 * i])];
+        std::uint32_t& lamp = lamp_of[connections.root(corners[3 * i])];
         if (lamp == kNoLamp) {
             lamp = static_cast<std::uint32_t>(lamps.size());
             lamps.emplace_back();

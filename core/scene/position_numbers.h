@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/kernel/base/hash.h"
 #include "core/kernel/base/math.h"
 
 namespace pl {
@@ -33,11 +34,8 @@ private:
     static constexpr std::uint32_t kFree = 0xffffffffu;
 
     static std::size_t hash(const Vec3f& position) {
-        std::uint64_t hash = 0;
-        for (int i = 0; i < 3; ++i) {
-            hash = (hash ^ std::bit_cast<std::uint32_t>(position[i] + 0.0f)) * 0x9E3779B97F4A7C15u;
-            hash ^= hash >> 32;
-        }
+        std::uint32_t hash = 0;
+        for (int i = 0; i < 3; ++i) hash = hash_word(hash, std::bit_cast<std::uint32_t>(position[i] + 0.0f));
         return hash;
     }
 
