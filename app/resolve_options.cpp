@@ -107,7 +107,7 @@ void check_combinations(Command command, const Options& options) {
     if (!options.save_field.empty()) require_learning(options);
 }
 
-/// SD-trees, lobes and networks are learned, and on the CPU: "auto" then takes that.
+/// SD-trees, lobes and networks are learned; of the first two, "auto" takes the CPU.
 void settle_representation(Options& options) {
     const FieldSettings& field = options.render.field;
     if (field.representation != Representation::SdTree && field.iterations != Iterations::Updates)
@@ -120,11 +120,12 @@ void settle_representation(Options& options) {
         throw Error(ErrorKind::Usage,
                     fmt::format("--field {}: expected --field table with --method {}, whose probes fill tables", name,
                                 info_of(options.render.method).name));
+    if (has_tables(field.representation)) return;
     const auto is_cuda = [](const std::string& backend) { return backend == "cuda"; };
     if (is_cuda(options.backend) || std::ranges::any_of(options.backends, is_cuda))
-        throw Error(ErrorKind::Unavailable,
-                    fmt::format("--field {}: expected --backend cpu or auto, got cuda, which has {} tables alone", name,
-                                field.representation == Representation::Neural ? "an update of" : "kernels for"));
+        throw Error(
+            ErrorKind::Unavailable,
+            fmt::format("--field {}: expected --backend cpu or auto, got cuda, which has no kernels for it", name));
     options.backend = "cpu";
 }
 

@@ -31,17 +31,16 @@ namespace {
 const PassKernels<PicturePass>& kernels_for(const PassRequest& request, const AnyFieldView& field) {
     const PassKernels<PicturePass>* kernels = nullptr;
     const bool samples_lights = request.path.next_event != 0;
+    const auto take_kernel = [&]<int kEntry>() { kernels = &picture_kernels<kEntry>(); };
     const auto take_host_kernel = [&]<int kEntry>() { kernels = &host_picture_kernels<kEntry>(); };
     if (std::holds_alternative<SdTreeField>(field))
         with_host_kernel<SdTreeField>(request.kernel_method(), request.learning, samples_lights, take_host_kernel);
     else if (std::holds_alternative<LobeField>(field))
         with_host_kernel<LobeField>(request.kernel_method(), request.learning, samples_lights, take_host_kernel);
     else if (std::holds_alternative<NeuralVertexField>(field))
-        with_host_kernel<NeuralVertexField>(request.kernel_method(), request.learning, samples_lights,
-                                            take_host_kernel);
+        with_method_kernel<NeuralVertexField>(request.kernel_method(), request.learning, samples_lights, take_kernel);
     else
-        with_method_kernel(request.kernel_method(), request.learning, samples_lights,
-                           [&]<int kEntry>() { kernels = &picture_kernels<kEntry>(); });
+        with_method_kernel(request.kernel_method(), request.learning, samples_lights, take_kernel);
     if (kernels == nullptr) throw Error(ErrorKind::Runtime, "CPU back end: this method has no kernels");
     return *kernels;
 }

@@ -3,11 +3,10 @@
 #include <array>
 #include <optional>
 
-#include <fmt/format.h>
-
 #include "core/kernel/integrator/sampled_lights.h"
 #include "core/session/exact_backend.h"
 #include "cuda/availability.h"
+#include "cuda/device_fields.h"
 #include "cuda/device_films.h"
 #include "cuda/path_launcher.h"
 
@@ -15,8 +14,6 @@ namespace pl::cuda {
 namespace {
 
 using DeviceScene = SceneStorage<DeviceArray>;
-using DeviceVolumes = VolumeStorage<DeviceArray>;
-using DeviceField = FieldArrays<DeviceArray>;
 
 class CudaBackend final : public ExactBackend {
 public:
@@ -38,39 +35,18 @@ public:
 
     void upload_volumes(std::shared_ptr<const HostVolumes> volumes, const FieldShape& shape) override {
         launcher_.forget();
-        fields_ = {};
-        volumes_ = {};
-        zip(*volumes, volumes_, [&](const auto& from, auto& to) { to.upload(from, stream_); });
-        stream_.wait("uploading radiance volumes");
-        shape_ = shape;
+        fields_.place(std::move(volumes), shape);
     }
-
     void upload_field(MethodId method, HostField field) override {
-        if (volumes_.normals.size() == 0)
-            throw Error(ErrorKind::Runtime, "CUDA back end: expected volumes before tables, got none");
-        if (representation_of(field) != Representation::Table) {
-            constexpr const char* kOthers[]{"", "an SD-tree", "lobes", "a network", "a network for vertices"};
-            throw Error(ErrorKind::Unavailable,
-                        fmt::format("CUDA back end: expected a field of tables, got {}, which the CPU serves: take "
-                                    "--backend cpu or --field table",
-                                    kOthers[field.index()]));
-        }
         launcher_.forget();
-        DeviceField uploaded;
-        zip_fields(field, uploaded, [&](const auto& from, auto& to) { to.upload(from, stream_); });
-        stream_.wait("uploading a field");
-        fields_[index_of(method)] = std::move(uploaded);
-        gather_records(method);
+        fields_.upload(method, field);
     }
-    HostField download_field(MethodId method) const override {
-        HostField field;
-        if (!has_field(method)) return field;
-        zip_fields(*fields_[index_of(method)], field,
-                   [&](const auto& from, auto& to) { from.download(to, stream_); });
-        stream_.wait("downloading a field");
-        return field;
+    HostField download_field(MethodId method) const override { return fields_.download(method); }
+    bool has_field(MethodId method) const override { return fields_.has(method); }
+    std::size_t field_bytes(MethodId method) const override { return fields_.bytes(method); }
+    std::optional<NetworkStatus> network_status(MethodId method) const override {
+        return fields_.network_status(method);
     }
-    bool has_field(MethodId method) const override { return fields_[index_of(method)].has_value(); }
 
     void reset_film(FilmSlot slot, int width, int height) override {
         launcher_.forget();
@@ -95,29 +71,20 @@ public:
 
     PassCounters run_pass(const PassRequest& request) override;
     PassCounters precompute(const PrecomputeRequest& request) override;
-    void change_pending(MethodId method, const std::function<void(PendingSums)>& change) override;
+    void change_pending(MethodId method, const std::function<void(PendingSums)>& change) override {
+        fields_.change_pending(method, change);
+    }
     void settle_when_stopped() override { launcher_.settle_when_stopped(); }
-    void update_field(MethodId method) override;
+    void update_field(MethodId method) override {
+        launcher_.forget();
+        fields_.update(method);
+    }
 
 private:
-    static std::size_t index_of(MethodId method) { return static_cast<std::size_t>(method); }
-
     const DeviceScene& existing_scene() const {
         if (!scene_) throw Error(ErrorKind::Runtime, "CUDA back end: expected a scene, got none");
         return *scene_;
     }
-    DeviceField& existing_field(MethodId method) {
-        std::optional<DeviceField>& field = fields_[index_of(method)];
-        if (!field)
-            throw Error(ErrorKind::Runtime,
-                        fmt::format("CUDA back end: expected tables of '{}', got none", info_of(method).name));
-        return *field;
-    }
-    AnyFieldView learned_field(MethodId method);
-    void gather_records(MethodId method);
-    ShownField shown_field(const FilmSlot& slot);
-    Span<const float> volume_values(const FilmSlot& slot);
-
     template <class M, class Paths>
     void launch_paths(void (*kernel)(TraceSetup, M, Paths), const PathSettings& path, const M& method,
                       const Paths& paths) {
@@ -134,25 +101,27 @@ private:
     Stream stream_;
     PathLauncher launcher_;
     std::optional<DeviceScene> scene_;
-    DeviceVolumes volumes_;
-    FieldShape shape_;
-    std::array<std::optional<DeviceField>, kMethodCount> fields_;
-    std::array<DeviceArray<VolumeRecord>, kMethodCount> records_;  ///< of the fields that are there
+    DeviceFields fields_{stream_};
     DeviceFilms films_;
-    DeviceArray<float> volume_values_;  ///< of the latest heat map
-    DeviceArray<Vec3f> samples_;        ///< radiance of the paths of one launch
+    DeviceArray<Vec3f> samples_;  ///< radiance of the paths of one launch
     std::array<LaunchSize, FilmSlot::kCount> picture_sizes_;
     LaunchSize probe_size_;
 };
 
 void CudaBackend::launch_picture(const PassRequest& request, const PixelPaths& pixels) {
     const MethodId id = request.method();
-    const AnyFieldView field = info_of(id).uses_field ? learned_field(id) : AnyFieldView{};
-    with_method_kernel(request.kernel_method(), request.learning, request.path.next_event != 0, [&]<int kEntry>() {
+    const AnyFieldView field = info_of(id).uses_field ? fields_.view(id) : AnyFieldView{};
+    const auto launch_kernel = [&]<int kEntry>() {
         IntegratorAt<kEntry> method;
         configure_method(method, field, request.mixture, request.learning);
         launch_paths(picture_kernels<kEntry>()[covering_set(request.features)], request.path, method, pixels);
-    });
+    };
+    const bool samples_lights = request.path.next_event != 0;
+    if (std::holds_alternative<NeuralVertexField>(field))
+        with_method_kernel<NeuralVertexField>(request.kernel_method(), request.learning, samples_lights,
+                                              launch_kernel);
+    else
+        with_method_kernel(request.kernel_method(), request.learning, samples_lights, launch_kernel);
 }
 
 void CudaBackend::launch_view(const PassRequest& request, const ViewContext& context, PathRange range) {
@@ -170,7 +139,7 @@ PassCounters CudaBackend::run_pass(const PassRequest& request) {
     const bool is_picture = request.slot.view == View::Beauty;
     const PixelGrid grid{film.width, film.height, request.sample};
     const ViewContext context{.view = request.slot.view,
-                              .shown = is_picture ? ShownField{} : shown_field(request.slot),
+                              .shown = is_picture ? ShownField{} : fields_.shown(request.slot),
                               .camera = request.camera,
                               .settings = request.path,
                               .grid = grid};
@@ -241,76 +210,13 @@ void CudaBackend::refine_launch(const PassRequest& request, PathRange range, con
 }
 
 PassCounters CudaBackend::precompute(const PrecomputeRequest& request) {
-    const ProbePaths paths{.field = std::get<TableField>(learned_field(request.method)),
+    const ProbePaths paths{.field = std::get<TableField>(fields_.view(request.method)),
                            .stratum = {request.sample, request.strata_side}};
     const auto kernel = kProbeKernels[covering_set(request.features)];
     return launcher_.run(
         {.sample = request.sample, .stream = request.path.stream}, probe_size_,
         {request.first_probe, std::min(request.end_probe, probe_count(paths.field))}, request.stop, request.path,
         [&](PathRange) { launch_paths(kernel, request.path, ProbeMethod{}, paths); }, [](PathRange) {});
-}
-
-void CudaBackend::change_pending(MethodId method, const std::function<void(PendingSums)>& change) {
-    auto& arrays = std::get<TableStorage<DeviceArray>>(existing_field(method));
-    for_each_pending_array(arrays, [&](auto& array) {
-        std::vector<std::remove_cvref_t<decltype(*array.data())>> values;
-        array.download(values, stream_);
-        stream_.wait("reading pending sums");
-        change(std::span(values));
-        array.upload(values, stream_);
-        stream_.wait("writing pending sums");
-    });
-}
-
-void CudaBackend::update_field(MethodId method) {
-    launcher_.forget();
-    const TableUpdateView field = update_view(shape_, std::get<TableStorage<DeviceArray>>(existing_field(method)));
-    const std::uint32_t volumes = field.mean_radiance.count;
-    for (const UpdateStep& step : kUpdateSteps) {
-        std::uint32_t count = volumes;
-        if (step.item == UpdateItem::Cell) count *= static_cast<std::uint32_t>(field.cells.count());
-        if (step.item == UpdateItem::Row) count *= static_cast<std::uint32_t>(field.cells.side);
-        launch(step.kernel, one_thread_each(count), stream_, step.name, field, count);
-    }
-    gather_records(method);
-    stream_.wait("updating a field");
-}
-
-/// A method's field with the records of its volumes.
-AnyFieldView CudaBackend::learned_field(MethodId method) {
-    AnyFieldView view = field_view(shape_, volumes_, existing_field(method));
-    std::get<TableField>(view).records = view_of(std::as_const(records_[index_of(method)]));
-    return view;
-}
-
-/// Queued: to be called after every change of a field.
-void CudaBackend::gather_records(MethodId method) {
-    const auto field = std::get<TableField>(field_view(shape_, volumes_, existing_field(method)));
-    DeviceArray<VolumeRecord>& records = records_[index_of(method)];
-    const std::uint32_t volumes = field.normals.count;
-    if (records.size() != volumes) records = DeviceArray<VolumeRecord>(volumes);
-    launch(kGatherRecords, one_thread_each(volumes), stream_, "gather_records", field, view_of(records));
-}
-
-/// The placement and, for heat maps, one value per volume; empty for views that need neither.
-ShownField CudaBackend::shown_field(const FilmSlot& slot) {
-    const ViewInfo& view = info_of(slot.view);
-    if (!view.needs_volumes && !view.needs_tables) return {};
-    if (volumes_.normals.size() == 0) throw Error(ErrorKind::Runtime, "CUDA back end: expected volumes, got none");
-    ShownField shown{placement_view(volumes_, shape_.lookup, shape_.extent), {}};
-    if (needs_volume_values(slot.view)) shown.volume_values = volume_values(slot);
-    return shown;
-}
-
-/// Queued: complete before later work of the stream.
-Span<const float> CudaBackend::volume_values(const FilmSlot& slot) {
-    const TableUpdateView field =
-        update_view(shape_, std::get<TableStorage<DeviceArray>>(existing_field(field_owner(slot.method))));
-    const std::uint32_t volumes = field.mean_radiance.count;
-    if (volume_values_.size() != volumes) volume_values_ = DeviceArray<float>(volumes);
-    launch(kVolumeValues, one_thread_each(volumes), stream_, "volume_values", field, slot.view,
-           Span<float>{volume_values_.data(), volumes});
-    return Span<const float>{volume_values_.data(), volumes};
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ constexpr auto kFieldOptions = std::to_array<OptionSpec>({
      .help = "How reinforcement represents what it learns: table (default), cells of each radiance volume; sd-tree, quadtrees "
              "over directions at the leaves of a binary tree over space; lobes, a mixture of von Mises-Fisher lobes in each "
              "radiance volume; neural, tables with a network over all volumes as their prior; or neural-vertex, a network that gives "
-             "each vertex a mixture of lobes, taught by tables; all but table on the CPU",
+             "each vertex a mixture of lobes, taught by tables; sd-tree and lobes on the CPU alone",
      .commands = kSampling, .in_scene_files = true, .parse = parse_representation,
      .print = [](const Options& o) { return std::string(name_of(o.render.field.representation)); }},
     {.name = "iterations", .flags = "--iterations", .value = "NAME", .group = kField,

@@ -13,17 +13,20 @@ namespace {
 KernelRange range_of(const RenderSettings& settings) {
     if (settings.view != View::Beauty) return kViewRange;
     KernelRange range = KernelRange::Full;
-    const auto take_range = [&]<int kEntry>() { range = TypeAt<kEntry, HostMethodList>::Integrator::kKernelRange; };
     const auto is_served_by = [&]<class Field>() {
-        return with_host_kernel<Field>(settings.method, settings.field.learning, settings.next_event, take_range);
+        return with_host_kernel<Field>(
+            settings.method, settings.field.learning, settings.next_event,
+            [&]<int kEntry>() { range = TypeAt<kEntry, HostMethodList>::Integrator::kKernelRange; });
     };
+    const auto take_range = [&]<int kEntry>() { range = TypeAt<kEntry, MethodList>::Integrator::kKernelRange; };
     const Representation representation = settings.field.representation;
     if (representation == Representation::SdTree && is_served_by.template operator()<SdTreeField>()) return range;
     if (representation == Representation::Lobes && is_served_by.template operator()<LobeField>()) return range;
-    if (representation == Representation::NeuralVertex && is_served_by.template operator()<NeuralVertexField>())
-        return range;
-    with_method_kernel(settings.method, settings.field.learning, settings.next_event,
-                       [&]<int kEntry>() { range = TypeAt<kEntry, MethodList>::Integrator::kKernelRange; });
+    if (representation == Representation::NeuralVertex)
+        with_method_kernel<NeuralVertexField>(settings.method, settings.field.learning, settings.next_event,
+                                              take_range);
+    else
+        with_method_kernel(settings.method, settings.field.learning, settings.next_event, take_range);
     return range;
 }
 

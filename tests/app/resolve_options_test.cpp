@@ -138,7 +138,7 @@ TEST_CASE("unknown words name the nearest one") {
     CHECK_THAT(complaint({"render", "s", "t", "-o", "x.png"}), contains("unexpected argument 't'"));
 }
 
-TEST_CASE("SD-trees, lobes and networks take the CPU and refuse CUDA") {
+TEST_CASE("SD-trees and lobes take the CPU and refuse CUDA, fields with tables do not") {
     CHECK(parse(render_with({"--method", "reinforcement"})).backend == "auto");
     for (const auto& [name, representation] :
          {std::pair<std::string, Representation>{"sd-tree", Representation::SdTree},
@@ -148,11 +148,14 @@ TEST_CASE("SD-trees, lobes and networks take the CPU and refuse CUDA") {
         const std::vector<std::string> given{"--method", "reinforcement", "--field", name};
         const Options options = parse(render_with(given));
         CHECK(options.render.field.representation == representation);
-        CHECK(options.backend == "cpu");
+        CHECK(options.backend == (has_tables(representation) ? "auto" : "cpu"));
         std::vector<std::string> on_cuda = given;
         on_cuda.insert(on_cuda.end(), {"--backend", "cuda"});
-        CHECK_THAT(error_message(ErrorKind::Unavailable, [&] { parse(render_with(on_cuda)); }),
-                   contains("--field " + name + ": expected --backend cpu or auto, got cuda"));
+        if (has_tables(representation))
+            CHECK(parse(render_with(on_cuda)).backend == "cuda");
+        else
+            CHECK_THAT(error_message(ErrorKind::Unavailable, [&] { parse(render_with(on_cuda)); }),
+                       contains("--field " + name + ": expected --backend cpu or auto, got cuda"));
     }
 }
 

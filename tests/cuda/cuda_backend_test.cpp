@@ -29,6 +29,8 @@ Session make_cuda_session(const SceneDescription& scene, const RenderSettings& s
     return Session(make_cuda_backend(options), std::make_shared<const SceneDescription>(scene), settings);
 }
 
+constexpr Representation kNetworks[] = {Representation::Neural, Representation::NeuralVertex};
+
 /// Launches so short that most paths have to wait for the next one.
 constexpr CudaOptions kShortLaunches{.most_segments = 2};
 
@@ -93,13 +95,62 @@ TEST_CASE("Every target, rate and rule of roulette gives the bits of the CPU bac
         INFO(variant.name);
         const RenderSettings settings =
             variant.of(small_settings(scene, {MethodId::Reinforcement, variant.next_event}));
-        if (settings.field.representation != Representation::Table) {
+        if (!has_tables(settings.field.representation)) {
             CHECK_THAT(error_message(ErrorKind::Unavailable, [&] { render(make_cuda_session(scene, settings)); }),
                        contains("CUDA back end: expected a field of tables, got ") && contains("take --backend cpu"));
             continue;
         }
         CHECK(same_state(render(make_cuda_session(scene, settings)), render(make_session(scene, settings))));
     }
+}
+
+TEST_CASE("Fields with networks have the bits, the size and the views of the CPU back end") {
+    const SceneDescription scene = shipped_scene("door");
+    for (const Representation representation : kNetworks) {
+        INFO(static_cast<int>(representation));
+        RenderSettings settings = small_settings(scene, {MethodId::Reinforcement, true});
+        settings.field.representation = representation;
+        shim::reset();
+        shim::set_threads(3);
+        Session cpu = make_session(scene, settings);
+        Session cuda = make_cuda_session(scene, settings, kShortLaunches);
+        render_passes(cpu, 6);
+        render_passes(cuda, 6);
+        CHECK(same_state(state_of(cuda), state_of(cpu)));
+        const std::optional<FieldStatus> expected = cpu.snapshot(slot_of(cpu)).field;
+        const std::optional<FieldStatus> got = cuda.snapshot(slot_of(cuda)).field;
+        REQUIRE((expected && got && expected->network && got->network));
+        CHECK(got->bytes == expected->bytes);
+        CHECK(got->network->steps == expected->network->steps);
+        CHECK(got->network->steps > 0);
+        CHECK(got->network->bytes == expected->network->bytes);
+        for (const ViewInfo& view : all_views()) {
+            INFO(view.name);
+            const FilmSlot slot{MethodId::Reinforcement, view.id};
+            render_passes(cpu, slot, 1);
+            render_passes(cuda, slot, 1);
+            CHECK(same_film(state_of(cuda, slot), state_of(cpu, slot)));
+        }
+    }
+    CHECK(shim::live_objects() == 0);
+}
+
+TEST_CASE("A network that is lost guides by the cosine on both back ends") {
+    shim::reset();
+    const SceneDescription scene = shipped_scene("door");
+    RenderSettings settings = small_settings(scene, {MethodId::Reinforcement, false});
+    settings.field.representation = Representation::NeuralVertex;
+    const auto render_lost = [&](Session session) {
+        render_passes(session, 2);
+        RenderBackend& backend = session.backend_access();
+        HostField field = backend.download_field(MethodId::Reinforcement);
+        std::get<HostNeuralVertex>(field).weights[kVertexLayout.last] = std::numeric_limits<float>::quiet_NaN();
+        backend.upload_field(MethodId::Reinforcement, std::move(field));
+        render_passes(session, 2);
+        CHECK(backend.network_status(MethodId::Reinforcement)->is_lost);
+        return state_of(session);
+    };
+    CHECK(same_state(render_lost(make_cuda_session(scene, settings)), render_lost(make_session(scene, settings))));
 }
 
 TEST_CASE("A film that guiding is given up in has the bits of the CPU back end, launches of any size") {
@@ -398,8 +449,12 @@ TEST_CASE("Several passes at once have the bits of single ones, in fewer launche
 TEST_CASE("A field moves to the device and back in mid-learning without changing a bit") {
     shim::reset();
     const SceneDescription scene = shipped_scene("door");
-    for (const MethodId method : {MethodId::Precomputed, MethodId::Reinforcement}) {
-        const RenderSettings settings = small_settings(scene, {method, false});
+    for (const auto& [method, representation] : {std::pair{MethodId::Precomputed, Representation::Table},
+                                                 {MethodId::Reinforcement, Representation::Table},
+                                                 {MethodId::Reinforcement, Representation::Neural},
+                                                 {MethodId::Reinforcement, Representation::NeuralVertex}}) {
+        RenderSettings settings = small_settings(scene, {method, false});
+        settings.field.representation = representation;
         Session session = make_session(scene, settings);
         Session expected = make_session(scene, settings);
         const std::shared_ptr<RenderBackend> cpu = make_cpu_backend({.threads = 2});
@@ -409,14 +464,14 @@ TEST_CASE("A field moves to the device and back in mid-learning without changing
         expected.advance(slot_of(expected));
         session.apply(EditBackend{cuda});
         expected.apply(EditBackend{other_cpu});
-        CHECK(same_bits(state_of(session).tables, state_of(expected).tables));
+        CHECK(same_state(state_of(session), state_of(expected)));
         render_passes(session, 2);
         render_passes(expected, 2);
         CHECK(same_state(state_of(session), state_of(expected)));
         session.apply(EditBackend{cpu});
         expected.apply(EditBackend{cpu});
         CHECK(session.backend().name == "cpu");
-        CHECK(same_bits(state_of(session).tables, state_of(expected).tables));
+        CHECK(same_state(state_of(session), state_of(expected)));
     }
 }
 

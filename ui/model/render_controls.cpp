@@ -165,13 +165,11 @@ void RenderControls::cancel_precomputation() {
 
 /// Whether a back end serves the field; says so if it does not.
 bool RenderControls::is_served(const FieldSettings& field, const std::string& backend) {
-    if (field.representation == Representation::Table || backend == "cpu") return true;
-    std::string_view needs = "the SD-tree needs";
-    if (field.representation == Representation::Lobes) needs = "lobes need";
-    if (field.representation == Representation::Neural || field.representation == Representation::NeuralVertex)
-        needs = "the network needs";
+    if (backend == "cpu" || has_tables(field.representation)) return true;
     messages_.say(MessageLevel::Warning,
-                  fmt::format("{} serves tables alone: {} the CPU", back_end_label(backend), needs));
+                  fmt::format("{} has no kernels for {}: {} the CPU", back_end_label(backend),
+                              field.representation == Representation::Lobes ? "lobes" : "the SD-tree",
+                              field.representation == Representation::Lobes ? "they need" : "it needs"));
     return false;
 }
 

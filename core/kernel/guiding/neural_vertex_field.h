@@ -17,11 +17,11 @@ struct NeuralVertexLocation : TableLocation {
 struct NeuralVertexField : TableField {
     using Location = NeuralVertexLocation;
 
-    VertexEvaluator evaluate = nullptr;
-    Span<const float> weights;         ///< of kVertexLayout, the running means
-    Span<const std::uint32_t> counts;  ///< by NetworkCount
-    Vec3f corner{0.0f};                ///< lowest corner of the cube that the grids divide
-    float edge = 1.0f;                 ///< of the cube, above 0
+    VertexEvaluator evaluate = nullptr;  ///< of the host; a device has evaluate_vertex()
+    Span<const float> weights;           ///< of kVertexLayout, the running means
+    Span<const std::uint32_t> counts;    ///< by NetworkCount
+    Vec3f corner{0.0f};                  ///< lowest corner of the cube that the grids divide
+    float edge = 1.0f;                   ///< of the cube, above 0
 
     PL_HD NetworkPoint point_of(Vec3f position, Vec3f normal) const { return {(position - corner) / edge, normal}; }
     /// Of a network that is lost: the cosine alone.
@@ -29,7 +29,10 @@ struct NeuralVertexField : TableField {
         if (counts[kNetworkIsLost] != 0) return cosine_mixture(normal);
         float inputs[kInputs], outputs[kVertexColumns];
         fill_inputs(point_of(position, normal), weights.data, inputs);
-        evaluate(weights.data, inputs, outputs);
+        if constexpr (is_device_code())
+            evaluate_vertex<FloatQuad>(weights.data, inputs, outputs);
+        else
+            evaluate(weights.data, inputs, outputs);
         return vertex_mixture(outputs, normal);
     }
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "core/kernel/guiding/lobe_field.h"
-#include "core/kernel/guiding/neural_vertex_field.h"
 #include "core/kernel/guiding/sd_tree_field.h"
 #include "core/kernel/methods/method_list.h"
 
@@ -18,11 +17,7 @@ using HostMethodList = TypeList<
     MethodKernel<Precomputed, Guided<LobeField, FrozenField>>,
     MethodKernel<Reinforcement, Guided<LobeField, ExpectedSarsa>>,
     MethodKernel<Reinforcement, Guided<LobeField, Sarsa>>,
-    MethodKernel<Reinforcement, Guided<LobeField, MonteCarlo>>,
-    MethodKernel<Precomputed, Guided<NeuralVertexField, FrozenField>>,
-    MethodKernel<Reinforcement, Guided<NeuralVertexField, ExpectedSarsa>>,
-    MethodKernel<Reinforcement, Guided<NeuralVertexField, Sarsa>>,
-    MethodKernel<Reinforcement, Guided<NeuralVertexField, MonteCarlo>>
+    MethodKernel<Reinforcement, Guided<LobeField, MonteCarlo>>
 >;
 // clang-format on
 

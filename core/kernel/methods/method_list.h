@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/kernel/base/type_list.h"
+#include "core/kernel/guiding/neural_vertex_field.h"
 #include "core/kernel/guiding/table_field.h"
 #include "core/kernel/methods/default.h"
 #include "core/kernel/methods/precomputed.h"
@@ -23,9 +24,13 @@ struct MethodKernel {
 using MethodList = TypeList<
     MethodKernel<Default, DefaultMethod>,
     MethodKernel<Precomputed, Guided<TableField, FrozenField>>,
+    MethodKernel<Precomputed, Guided<NeuralVertexField, FrozenField>>,
     MethodKernel<Reinforcement, Guided<TableField, ExpectedSarsa>>,
     MethodKernel<Reinforcement, Guided<TableField, Sarsa>>,
-    MethodKernel<Reinforcement, Guided<TableField, MonteCarlo>>
+    MethodKernel<Reinforcement, Guided<TableField, MonteCarlo>>,
+    MethodKernel<Reinforcement, Guided<NeuralVertexField, ExpectedSarsa>>,
+    MethodKernel<Reinforcement, Guided<NeuralVertexField, Sarsa>>,
+    MethodKernel<Reinforcement, Guided<NeuralVertexField, MonteCarlo>>
 >;
 // clang-format on
 
@@ -50,15 +55,29 @@ constexpr bool any_method_kernel(Visit&& visit) {
     return any_entry<MethodList>(visit);
 }
 
-/// Calls the same for the first entry that serves a method and its settings.
-template <class Visit>
+/// Whether an integrator samples from fields of type F, if from any.
+template <class M, class F>
+constexpr bool takes_field() {
+    if constexpr (requires { typename M::Field; })
+        return std::is_same_v<typename M::Field, F>;
+    else
+        return true;
+}
+
+/// Calls the same for the first entry that serves a method, its settings and a field of type F.
+template <class F = TableField, class Visit>
 constexpr bool with_method_kernel(MethodId method, const LearningSettings& learning, bool samples_lights,
                                   Visit&& visit) {
     return any_method_kernel([&]<int kEntry>() {
         using Integrator = typename TypeAt<kEntry, MethodList>::Integrator;
-        if (MethodId{method_index<kEntry>()} != method || !Integrator::serves(learning, samples_lights)) return false;
-        visit.template operator()<kEntry>();
-        return true;
+        if constexpr (takes_field<Integrator, F>()) {
+            if (MethodId{method_index<kEntry>()} != method || !Integrator::serves(learning, samples_lights))
+                return false;
+            visit.template operator()<kEntry>();
+            return true;
+        } else {
+            return false;
+        }
     });
 }
 

@@ -61,7 +61,7 @@ TEST_CASE("Each target is served by the integrator with the least memory per pat
         with_method_kernel(MethodId::Reinforcement, learning, lights, [&]<int kEntry>() { served = kEntry; });
         return served;
     };
-    constexpr int kExpectedSarsa = 2, kSarsa = 3, kMonteCarlo = 4;
+    constexpr int kExpectedSarsa = 3, kSarsa = 4, kMonteCarlo = 5;
     for (const bool lights : {false, true}) {
         CHECK(serving({}, lights) == kExpectedSarsa);
         CHECK(serving({LearningTarget::Sarsa, All}, lights) == kSarsa);

@@ -1,0 +1,161 @@
+#include "cuda/device_fields.h"
+
+#include <fmt/format.h>
+
+#include "core/base/usable_threads.h"
+#include "cpu/neural_update.h"
+#include "cpu/neural_vertex_update.h"
+
+namespace pl::cuda {
+
+void DeviceFields::place(std::shared_ptr<const HostVolumes> volumes, const FieldShape& shape) {
+    stored_ = {};
+    volumes_ = {};
+    zip(*volumes, volumes_, [&](const auto& from, auto& to) { to.upload(from, stream_); });
+    stream_.wait("uploading radiance volumes");
+    host_volumes_ = std::move(volumes);
+    shape_ = shape;
+}
+
+void DeviceFields::upload(MethodId method, const HostField& field) {
+    if (volumes_.normals.size() == 0)
+        throw Error(ErrorKind::Runtime, "CUDA back end: expected volumes before tables, got none");
+    if (!has_tables(representation_of(field)))
+        throw Error(ErrorKind::Unavailable,
+                    fmt::format("CUDA back end: expected a field of tables, got {}, which the CPU serves: take "
+                                "--backend cpu or --field table",
+                                std::holds_alternative<HostSdTree>(field) ? "an SD-tree" : "lobes"));
+    StoredField uploaded;
+    store(uploaded, field);
+    stored_[index_of(method)] = std::move(uploaded);
+}
+
+void DeviceFields::store(StoredField& stored, const HostField& field) {
+    zip_fields(field, stored.arrays, [&](const auto& from, auto& to) { to.upload(from, stream_); });
+    gather_records(stored);
+    stored.network = network_status_of(field);
+    stream_.wait("uploading a field");
+}
+
+HostField DeviceFields::download(MethodId method) const {
+    HostField field;
+    if (!has(method)) return field;
+    zip_fields(stored_[index_of(method)]->arrays, field,
+               [&](const auto& from, auto& to) { from.download(to, stream_); });
+    stream_.wait("downloading a field");
+    return field;
+}
+
+std::size_t DeviceFields::bytes(MethodId method) const {
+    std::size_t sum = 0;
+    HostField sizes;
+    if (has(method))
+        zip_fields(stored_[index_of(method)]->arrays, sizes,
+                   [&](const auto& array, const auto&) { sum += array.bytes(); });
+    return sum;
+}
+
+std::optional<NetworkStatus> DeviceFields::network_status(MethodId method) const {
+    return has(method) ? stored_[index_of(method)]->network : std::nullopt;
+}
+
+void DeviceFields::change_pending(MethodId method, const std::function<void(PendingSums)>& change) {
+    for_each_pending_array(tables_of(existing(method).arrays), [&](auto& array) {
+        std::vector<std::remove_cvref_t<decltype(*array.data())>> values;
+        array.download(values, stream_);
+        stream_.wait("reading pending sums");
+        change(std::span(values));
+        array.upload(values, stream_);
+        stream_.wait("writing pending sums");
+    });
+}
+
+void DeviceFields::update(MethodId method) {
+    StoredField& stored = existing(method);
+    const TableUpdateView field = update_view(shape_, tables_of(stored.arrays));
+    const std::uint32_t volumes = field.mean_radiance.count;
+    for (const UpdateStep& step : kUpdateSteps) {
+        std::uint32_t count = volumes;
+        if (step.item == UpdateItem::Cell) count *= static_cast<std::uint32_t>(field.cells.count());
+        if (step.item == UpdateItem::Row) count *= static_cast<std::uint32_t>(field.cells.side);
+        launch(step.kernel, one_thread_each(count), stream_, step.name, field, count);
+    }
+    if (stored.network) return teach_network(method);
+    gather_records(stored);
+    stream_.wait("updating a field");
+}
+
+/// Teaches the network by the tables as they are on the device.
+void DeviceFields::teach_network(MethodId method) {
+    HostField field = download(method);
+    if (auto* neural = std::get_if<HostNeural>(&field))
+        update_network(shape_, *host_volumes_, *neural, usable_threads());
+    if (auto* vertex = std::get_if<HostNeuralVertex>(&field))
+        update_vertex_network(shape_, *host_volumes_, *vertex, usable_threads());
+    store(existing(method), field);
+}
+
+AnyFieldView DeviceFields::view(MethodId method) {
+    StoredField& stored = existing(method);
+    AnyFieldView view = field_view(shape_, volumes_, stored.arrays);
+    const Span<const VolumeRecord> records = view_of(std::as_const(stored.records));
+    if (auto* vertex = std::get_if<NeuralVertexField>(&view))
+        vertex->records = records;
+    else
+        std::get<TableField>(view).records = records;
+    return view;
+}
+
+ShownField DeviceFields::shown(const FilmSlot& slot) {
+    const ViewInfo& view = info_of(slot.view);
+    if (!view.needs_volumes && !view.needs_tables) return {};
+    if (volumes_.normals.size() == 0) throw Error(ErrorKind::Runtime, "CUDA back end: expected volumes, got none");
+    ShownField shown{placement_view(volumes_, shape_.lookup, shape_.extent), {}};
+    if (needs_volume_values(slot.view)) shown.volume_values = volume_values(slot);
+    return shown;
+}
+
+/// The tables of a field that has them.
+DeviceFields::Tables& DeviceFields::tables_of(Arrays& arrays) {
+    if (auto* neural = std::get_if<NeuralStorage<DeviceArray>>(&arrays)) return *neural;
+    if (auto* vertex = std::get_if<NeuralVertexStorage<DeviceArray>>(&arrays)) return *vertex;
+    return std::get<Tables>(arrays);
+}
+
+DeviceFields::StoredField& DeviceFields::existing(MethodId method) {
+    std::optional<StoredField>& stored = stored_[index_of(method)];
+    if (!stored)
+        throw Error(ErrorKind::Runtime,
+                    fmt::format("CUDA back end: expected tables of '{}', got none", info_of(method).name));
+    return *stored;
+}
+
+/// Queued: to be called after every change of a field.
+void DeviceFields::gather_records(StoredField& stored) {
+    const TableField field = field_view(shape_, volumes_, tables_of(stored.arrays));
+    const std::uint32_t volumes = field.normals.count;
+    if (stored.records.size() != volumes) stored.records = DeviceArray<VolumeRecord>(volumes);
+    launch(kGatherRecords, one_thread_each(volumes), stream_, "gather_records", field, view_of(stored.records));
+}
+
+Span<const float> DeviceFields::volume_values(const FilmSlot& slot) {
+    const MethodId method = field_owner(slot.method);
+    Arrays& arrays = existing(method).arrays;
+    const TableUpdateView field = update_view(shape_, tables_of(arrays));
+    const std::uint32_t volumes = field.mean_radiance.count;
+    if (volume_values_.size() != volumes) volume_values_ = DeviceArray<float>(volumes);
+    if (std::holds_alternative<NeuralVertexStorage<DeviceArray>>(arrays)) {
+        HostField on_host = download(method);
+        const auto summary = summary_of(shape_, *host_volumes_, std::get<HostNeuralVertex>(on_host));
+        std::vector<float> values(volumes);
+        for (std::uint32_t i = 0; i < volumes; ++i) values[i] = volume_value(summary, i, slot.view);
+        volume_values_.upload(values, stream_);
+        stream_.wait("uploading a heat map");
+    } else {
+        launch(kVolumeValues, one_thread_each(volumes), stream_, "volume_values", field, slot.view,
+               Span<float>{volume_values_.data(), volumes});
+    }
+    return Span<const float>{volume_values_.data(), volumes};
+}
+
+}  // namespace pl::cuda
