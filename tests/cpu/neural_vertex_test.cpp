@@ -120,15 +120,15 @@ TEST_CASE("Every instruction set computes the same bits for a vertex") {
 TEST_CASE("A network asked for one vertex, with vectors or without, and for a block of volumes is the same") {
     const std::vector<float> weights = random_values(kVertexLayout.count, -0.3f, 0.3f, 3);
     const NetworkPoint point{{0.2f, 0.7f, 0.4f}, glm::normalize(Vec3f{0.1f, -0.4f, 0.3f})};
-    float inputs[kInputs], alone[kVertexColumns], in_quads[kVertexColumns], in_lanes[kVertexColumns];
+    float inputs[kInputs], alone[kVertexColumns], in_fours[kVertexColumns], in_lanes[kVertexColumns];
     fill_inputs(point, weights.data(), inputs);
     evaluate_vertex_network(weights.data(), inputs, alone);
-    evaluate_vertex<FloatQuad>(weights.data(), inputs, in_quads);
+    evaluate_vertex<FourFloats>(weights.data(), inputs, in_fours);
     best_neural_kernels().evaluate_vertex(weights.data(), inputs, in_lanes);
     NetworkBlock block(kVertexLayout);
     Network(best_neural_kernels(), kVertexLayout, weights.data()).predict(std::span(&point, 1), block);
     for (std::uint32_t i = 0; i < kVertexOutputs; ++i) {
-        CHECK(alone[i] == in_quads[i]);
+        CHECK(alone[i] == in_fours[i]);
         CHECK(alone[i] == in_lanes[i]);
         CHECK(alone[i] == block.outputs[i]);
     }

@@ -3,9 +3,11 @@
 #   - no contraction: not one fused multiply-add, so that a hit is the same on every back end; the box tests, which are only
 #     bounds, have theirs by the rounding down that no contraction has, twice as many as a traversal has double operations
 #   - no float is summed by atomics, whose order is another in each run
+#   - no exponential or logarithm of the device in kernels that trace paths: its bits are not those of the host
 #   - double arithmetic only in the exact edge test of triangles, once per ray that is traced and traversal (small scenes have one of
 #     their own)
-#   - stacks of the kernels that trace paths of at most 1024 bytes, 512 without lobes and images
+#   - stacks of the kernels that trace paths of at most 1024 bytes, 512 without lobes and images; with networks, whose units are
+#     there, 2048
 #   - an effect that a set lacks has no code in its kernels: no shadow ray, no random numbers, no normals
 #   - default path tracing has no code for learning
 #   - registers, stack and spills of every kernel as in kernels.sm_90.txt, and the counts of instructions in its machine code
@@ -23,7 +25,7 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
 # Entries of core/kernel/methods/method_list.h, in its order.
-entries=(default precomputed reinforcement sarsa monte_carlo)
+entries=(default precomputed precomputed_network reinforcement sarsa monte_carlo network network_sarsa network_monte_carlo)
 
 # source NAME: the file of a kernel; pictures have one per entry
 source_of() {
@@ -56,15 +58,16 @@ compile() {
         2>"$work/$1.log" || { cat "$work/$1.log"; exit 1; }
 }
 case $mode in
-quick | machine) pictures=(default) learners=() others=(film update) ;;
+quick | machine) pictures=(default) learners=() networks=() others=(film update) ;;
 all | --write)
     pictures=(default precomputed reinforcement)
     learners=(sarsa monte_carlo probe_kernels)
+    networks=(precomputed_network network network_sarsa network_monte_carlo)
     others=(views film update)
     ;;
 *) echo "mode: expected quick, all, machine or --write, got '$mode'" >&2; exit 2 ;;
 esac
-paths=("${pictures[@]}" "${learners[@]}")
+paths=("${pictures[@]}" "${learners[@]}" "${networks[@]}")
 files=("${paths[@]}" "${others[@]}")
 disassembler=$(disassembler) || disassembler=
 if [[ $mode == machine && -z $disassembler ]]; then exit 77; fi
@@ -103,7 +106,7 @@ registers() {
         /Used [0-9]+ registers/ {
             registers = part($0, "Used [0-9]+")
             sub("Used ", "", registers)
-            printf "%-14s %-14s %-16s %9d %6d %6d\n", file, name, set, registers, stack, spills
+            printf "%-19s %-14s %-16s %9d %6d %6d\n", file, name, set, registers, stack, spills
         }' "$work/$1.log"
 }
 # machine_code FILE: kernel, its set or step, and how many instructions it has of some kinds: loads by bits (ld16: 16 or fewer) but for
@@ -114,7 +117,7 @@ machine_code() {
         function count(kind) { ++counts[kind] }
         function finish() {
             if (name == "") return
-            printf "%-14s %-14s %-20s", file, name, set
+            printf "%-19s %-14s %-20s", file, name, set
             for (i = 1; i <= kinds; ++i) printf kind_names[i] == "generic" ? " %7d" : " %6d", counts[kind_names[i]]
             print ""
             split("", counts)
@@ -162,7 +165,7 @@ compare() {
     fi
 }
 
-machine_head=$(printf '%-14s %-14s %-20s %6s %6s %6s %6s %6s %7s %6s %6s %6s %6s %6s %6s %6s' file kernel 'effects or step' all ld128 \
+machine_head=$(printf '%-19s %-14s %-20s %6s %6s %6s %6s %6s %7s %6s %6s %6s %6s %6s %6s %6s' file kernel 'effects or step' all ld128 \
     ld64 ld32 ld16 generic ldl stl vote shfl match atom red)
 if [[ -n $disassembler ]]; then compare "$machine_table" machine_code "$machine_head"; fi
 if [[ $mode == machine ]]; then exit $((failures > 0)); fi
@@ -202,7 +205,7 @@ for file in "${pictures[@]}"; do
     expect "$file: roundings down without images" "${floors[63]}" -eq "${floors[0]}"
     expect "$file: roundings down with images" "${floors[32767]}" -gt "${floors[63]}"
 done
-for file in "${learners[@]}"; do
+for file in "${learners[@]}" "${networks[@]}"; do
     measure "$file" 0 7 32767
     expect "$file: instructions with none and some effects" "${size[0]}" -lt "${size[7]}"
     expect "$file: instructions with some and all effects" "${size[7]}" -lt "${size[32767]}"
@@ -214,15 +217,17 @@ for file in "${paths[@]}"; do
     for bits in 0 7; do
         expect "$file: fused operations of box tests in set $bits" "${boxes[bits]}" -eq "$((2 * doubles[bits]))"
     done
+    expect "$file: exponentials and logarithms of the device" "$(grep -cE '(ex2|lg2)\.approx' "$work/$file.ptx" || true)" -eq 0
     expect "$file: double divisions and roots" "$(count "$file" 32767 '(div|sqrt)[a-z.]*\.f64')" -eq 0
 done
 
 # most_stack FILE PATTERN: of the kernels that trace paths with these sets of effects
 most_stack() { registers "$1" | awk -v sets="$2" '$2 == "trace_paths" && $3 ~ sets && $5 > most { most = $5 } END { print most + 0 }'; }
-for file in "${paths[@]}"; do
+for file in "${pictures[@]}" "${learners[@]}"; do
     expect "$file: stack without lobes and images" "$(most_stack "$file" '^[047]$')" -le 512
     expect "$file: stack" "$(most_stack "$file" .)" -le 1024
 done
+for file in "${networks[@]}"; do expect "$file: stack" "$(most_stack "$file" .)" -le 2048; done
 
-compare "$table" registers "$(printf '%-14s %-14s %-16s %9s %6s %6s' file kernel 'effects or step' registers stack spills)"
+compare "$table" registers "$(printf '%-19s %-14s %-16s %9s %6s %6s' file kernel 'effects or step' registers stack spills)"
 exit $((failures > 0))

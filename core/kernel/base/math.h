@@ -96,7 +96,7 @@ PL_INLINE float log_of(float x) {
     const float p = (low * z - 2.4999993993e-1f) * z + 3.3333331174e-1f;
     return (z + (p * z * z * z - 0.5f * z * z)) + exponent * 0.69314718055994530942f;
 }
-/// e^x for x in [-87, 0], relative error below 1e-6. Polynomial of the Cephes library.
+/// e^x for x in [-87, 87], relative error below 1e-6. Polynomial of the Cephes library.
 PL_INLINE float exp_of(float x) {
     const float n = std::floor(x * 1.44269504088896341f + 0.5f);
     const float z = (x - n * 0.693359375f) + n * 2.12194440e-4f;  // ln 2 in two parts
@@ -104,6 +104,26 @@ PL_INLINE float exp_of(float x) {
     const float p = (high * z + 1.6666665459e-1f) * z + 5.0000001201e-1f;
     const float scale = std::bit_cast<float>(static_cast<std::uint32_t>(static_cast<int>(n) + 127) << 23);
     return (p * z * z + z + 1.0f) * scale;
+}
+/// From here on e^-x counts as 0.
+inline constexpr float kMostDecay = 87.0f;
+/// e^-x for x >= 0, infinite ones included, relative error below 1e-6.
+PL_HD inline float decay_of(float x) { return x < kMostDecay ? exp_of(-x) : 0.0f; }
+/// 1 - e^-x for x >= 0, relative error below 1e-6.
+PL_HD inline float complement_of_decay(float x) {
+    if (x >= 0.5f) return 1.0f - decay_of(x);
+    constexpr int kTerms = 8;
+    float sum = 1.0f;  // of x^(n-1) / n!, nested
+    for (int n = kTerms; n > 1; --n) sum = 1.0f - x * sum / static_cast<float>(n);
+    return x * sum;
+}
+/// -ln(1 - y) for y in [0, 1), relative error below 1e-6. Series of atanh where 1 - y has lost the digits of y.
+PL_HD inline float log_of_complement(float y) {
+    if (y >= 0.5f) return -log_of(1.0f - y);
+    const float s = y / (2.0f - y);
+    const float z = s * s;
+    const float high = 1.0f / 7.0f + z * (1.0f / 9.0f + z * (1.0f / 11.0f + z * (1.0f / 13.0f)));
+    return 2.0f * s * (1.0f + z * (1.0f / 3.0f + z * (1.0f / 5.0f + z * high)));
 }
 /// x^p for x in (0, 1], normal, and p in (0, 1].
 PL_INLINE float power(float x, float p) { return exp_of(p * log_of(x)); }

@@ -154,7 +154,7 @@ private:
             const float exponent = lobe.kappa * glm::dot(chord, chord);
             if (exponent < least) nearest = i;
             least = min_of(least, exponent);
-            part[i] = weight_of(volume, i) * vmf_peak(lobe.kappa) * std::exp(-0.5f * exponent);
+            part[i] = weight_of(volume, i) * vmf_peak(lobe.kappa) * decay_of(0.5f * exponent);
             sum += part[i];
         }
         const bool is_known = sum > 1.0e-20f;

@@ -30,7 +30,7 @@ struct NeuralVertexField : TableField {
         float inputs[kInputs], outputs[kVertexColumns];
         fill_inputs(point_of(position, normal), weights.data, inputs);
         if constexpr (is_device_code())
-            evaluate_vertex<FloatQuad>(weights.data, inputs, outputs);
+            evaluate_vertex<FourFloats>(weights.data, inputs, outputs);
         else
             evaluate(weights.data, inputs, outputs);
         return vertex_mixture(outputs, normal);

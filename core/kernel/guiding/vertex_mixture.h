@@ -31,7 +31,7 @@ PL_HD inline VmfLobe vertex_lobe(const float* outputs, Vec3f normal, std::uint32
     const float length = glm::length(axis);
     const float narrowness = kFirstNarrowness + outputs[kLobeNarrowness * kVertexLobes + lobe];
     return {length > 1.0e-6f ? axis / length : normal,
-            std::exp(clamp_to(narrowness, kLeastNarrowness, kMostNarrowness))};
+            exp_of(clamp_to(narrowness, kLeastNarrowness, kMostNarrowness))};
 }
 
 /// The mixture of the outputs times the cosine to the normal.
@@ -41,7 +41,7 @@ PL_HD inline VertexMixture vertex_mixture(const float* outputs, Vec3f normal) {
     for (std::uint32_t i = 1; i < kVertexLobes; ++i) most = max_of(most, logits[i]);
     VertexMixture mixture;
     for (std::uint32_t i = 0; i < kVertexLobes; ++i)
-        mixture.add_times_cosine(vertex_lobe(outputs, normal, i), std::exp(logits[i] - most), normal);
+        mixture.add_times_cosine(vertex_lobe(outputs, normal, i), decay_of(most - logits[i]), normal);
     mixture.normalize();
     return mixture;
 }

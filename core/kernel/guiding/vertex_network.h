@@ -3,6 +3,7 @@
 // bit.   [Dong et al. 2023, "Neural Parametric Mixtures for Path Guiding"]
 #pragma once
 
+#include "core/kernel/base/numbers.h"
 #include "core/kernel/guiding/network_layout.h"
 
 namespace pl {
@@ -26,26 +27,11 @@ inline constexpr NetworkLayout kVertexLayout(kVertexOutputs, kVertexHidden);
 inline constexpr std::uint32_t kVertexColumns = (kVertexOutputs + 15) / 16 * 16;
 static_assert(kVertexColumns <= kVertexLayout.columns);
 
-/// Four floats in one register of a host, or in one load of a device, whose threads are lanes already.
-struct alignas(16) FloatQuad {
-    float x[4];
-
-    PL_INLINE FloatQuad& operator+=(const FloatQuad& other) {
-        for (int i = 0; i < 4; ++i) x[i] += other.x[i];
-        return *this;
-    }
-    PL_INLINE friend FloatQuad operator*(float factor, const FloatQuad& quad) {
-        FloatQuad product;
-        for (int i = 0; i < 4; ++i) product.x[i] = factor * quad.x[i];
-        return product;
-    }
-};
-
 /// outputs: [kVertexColumns], from inputs: [kInputs].
 using VertexEvaluator = void (*)(const float* weights, const float* inputs, float* outputs);
 
-/// kUnits sums over `inputs`, whose weights lie `row` apart from input to input. Real: float, a FloatQuad, or a vector of floats;
-/// weights are aligned for quads.
+/// kUnits sums over `inputs`, whose weights lie `row` apart from input to input. Real: float, FourFloats, or a vector of floats;
+/// but for single floats, weights are aligned to 16 bytes.
 template <class Real, std::uint32_t kUnits>
 PL_INLINE void sum_units(const float* inputs, std::uint32_t count, const float* weights, std::uint32_t row,
                          float* units) {
@@ -53,7 +39,7 @@ PL_INLINE void sum_units(const float* inputs, std::uint32_t count, const float* 
     constexpr std::uint32_t kAll = kUnits / kLanes;
     constexpr std::uint32_t kVectors = kAll % 8 == 0 ? 8 : (kAll % 6 == 0 ? 6 : kAll);  // as many as registers hold
     static_assert(kUnits % (kVectors * kLanes) == 0 && kVectors <= 8);
-    constexpr std::size_t kAligned = kLanes < 4 ? alignof(float) : alignof(FloatQuad);
+    constexpr std::size_t kAligned = kLanes < 4 ? alignof(float) : alignof(FourFloats);
     for (std::uint32_t first = 0; first < kUnits; first += kVectors * kLanes) {
         Real sums[kVectors] = {};
         const float* factors = weights + first;

@@ -23,20 +23,21 @@ PL_HD inline float vmf_peak(float kappa) {
     if (kappa < kNearlyUniform) return kUniformSpherePdf * (1.0f + kappa);
     constexpr float kNarrow = 10.0f;  // exp(-20) is below the last digit of 1
     if (kappa > kNarrow) return kappa * (0.5f * kInvPi);
-    return kappa * (-0.5f * kInvPi) / std::expm1(-2.0f * kappa);
+    return kappa * (0.5f * kInvPi) / complement_of_decay(2.0f * kappa);
 }
 
 /// exp(kappa (cos - 1)), with 1 - cos as half of the squared chord, which keeps its digits near the mean.
 PL_HD inline float vmf_falloff(Vec3f mean, float kappa, Vec3f wi) {
     const Vec3f chord = wi - mean;
-    return std::exp(-0.5f * kappa * glm::dot(chord, chord));
+    return decay_of(0.5f * kappa * glm::dot(chord, chord));
 }
 
 /// A direction of the lobe around +z; u in [0,1)^2. 1 - cos is computed first: it has all digits of a narrow lobe.
 PL_HD inline Vec3f sample_vmf_local(float kappa, Vec2f u) {
     constexpr float kUniform = 1.0e-6f;
-    const float drop =
-        kappa < kUniform ? 2.0f * u.x : min_of(-std::log1p(u.x * std::expm1(-2.0f * kappa)) / kappa, 2.0f);
+    const float drop = kappa < kUniform
+                           ? 2.0f * u.x
+                           : min_of(log_of_complement(u.x * complement_of_decay(2.0f * kappa)) / kappa, 2.0f);
     const float radius = safe_sqrt(drop * (2.0f - drop));
     const SineCosine turn = sine_cosine_of_positive_turns(u.y);
     return {radius * turn.cosine, radius * turn.sine, 1.0f - drop};
@@ -71,7 +72,7 @@ PL_HD inline VmfProduct vmf_product(const VmfLobe& a, const VmfLobe& b) {
     // kappa - k1 - k2, by the difference of their squares: exact for narrow lobes.
     const float excess = a.kappa * b.kappa * glm::dot(chord, chord) / max_of(kappa + a.kappa + b.kappa, 1.0e-12f);
     const Vec3f mean = kappa > 1.0e-6f ? sum / kappa : a.mean;
-    return {{mean, min_of(kappa, kMostKappa)}, std::exp(-excess)};
+    return {{mean, min_of(kappa, kMostKappa)}, decay_of(excess)};
 }
 
 }  // namespace pl

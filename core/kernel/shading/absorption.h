@@ -11,14 +11,12 @@ namespace pl {
 inline constexpr std::uint32_t kNoMedium = 0xffffffffu;
 
 /// Optical depth from which on nothing is left.
-inline constexpr float kOpaqueDepth = 87.0f;
+inline constexpr float kOpaqueDepth = kMostDecay;
 
 /// Share of light that is left behind a distance; infinite ones are allowed. `absorption`: share that is absorbed per length, at
 /// least 0.   [Beer 1852]
 PL_HD inline float transmittance(float absorption, float distance) {
-    if (!(absorption > 0.0f)) return 1.0f;
-    const float depth = absorption * distance;
-    return depth < kOpaqueDepth ? exp_of(-depth) : 0.0f;
+    return absorption > 0.0f ? decay_of(absorption * distance) : 1.0f;
 }
 PL_HD inline Vec3f transmittance(Vec3f absorption, float distance) {
     return {transmittance(absorption.x, distance), transmittance(absorption.y, distance),

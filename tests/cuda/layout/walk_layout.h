@@ -105,6 +105,11 @@ PL_HD constexpr auto members(TableField& v) {
     static_assert(member_count<TableField>() == 1);
     return std::tie(base_of<TableView>(v));
 }
+PL_HD constexpr auto members(NeuralVertexField& v) {
+    const auto all = std::tie(base_of<TableField>(v), v.evaluate, v.weights, v.counts, v.corner, v.edge);
+    static_assert(std::tuple_size_v<decltype(all)> == member_count<NeuralVertexField>());
+    return all;
+}
 PL_HD constexpr auto members(TableUpdateView& v) {
     const auto all = std::tie(base_of<TableArrays<Span, Span>>(v), v.cells, v.light_clusters, v.radiance_unit,
                               v.extent, v.rate, v.uniform_floor);
@@ -112,7 +117,7 @@ PL_HD constexpr auto members(TableUpdateView& v) {
     return all;
 }
 
-/// The type that a pointer or span refers to; void for other types.
+/// The type that a pointer to values or a span refers to; void for other types.
 template <class T>
 struct Target {
     using Type = void;
@@ -120,6 +125,10 @@ struct Target {
 template <class T>
 struct Target<T*> {
     using Type = std::remove_const_t<T>;
+};
+template <class Result, class... Parameters>
+struct Target<Result (*)(Parameters...)> {
+    using Type = void;
 };
 template <class T>
 struct Target<Span<T>> {

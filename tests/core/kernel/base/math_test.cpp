@@ -121,7 +121,7 @@ TEST_CASE("Logarithm, exponential and power are as exact as they promise") {
         const double exact = std::log(static_cast<double>(x));
         REQUIRE(std::fabs(static_cast<double>(log_of(x)) - exact) <= 2e-7 * (1.0 + std::fabs(exact)));
     }
-    for (float x = 0.0f; x >= -87.0f; x -= 0.0011f) {
+    for (float x = 87.0f; x >= -87.0f; x -= 0.0011f) {
         const double exact = std::exp(static_cast<double>(x));
         REQUIRE(std::fabs(static_cast<double>(exp_of(x)) / exact - 1.0) <= 1e-6);
     }
@@ -133,6 +133,23 @@ TEST_CASE("Logarithm, exponential and power are as exact as they promise") {
         REQUIRE(std::fabs(static_cast<double>(now) / std::pow(static_cast<double>(x), static_cast<double>(0.7f)) -
                           1.0) <= 4e-6);
     }
+}
+
+TEST_CASE("Decays and their complements keep all digits of small numbers") {
+    const auto error = [](float got, double exact) { return std::fabs(static_cast<double>(got) / exact - 1.0); };
+    CHECK(decay_of(0.0f) == 1.0f);
+    CHECK(decay_of(kMostDecay) == 0.0f);
+    CHECK(decay_of(kInfinity) == 0.0f);
+    CHECK(complement_of_decay(0.0f) == 0.0f);
+    CHECK(complement_of_decay(kInfinity) == 1.0f);
+    CHECK(log_of_complement(0.0f) == 0.0f);
+    for (float x = 1.0e-30f; x < kMostDecay; x *= 1.003f) {
+        REQUIRE(error(decay_of(x), std::exp(-static_cast<double>(x))) <= 1e-6);
+        REQUIRE(error(complement_of_decay(x), -std::expm1(-static_cast<double>(x))) <= 1e-6);
+    }
+    for (float y = 1.0e-30f; y < 1.0f; y *= 1.003f)
+        REQUIRE(error(log_of_complement(y), -std::log1p(-static_cast<double>(y))) <= 1e-6);
+    CHECK(error(log_of_complement(0x1.fffffep-1f), 24.0 * std::log(2.0)) <= 1e-6);
 }
 
 // Rounding alone gives about 1e-7; the classic formula reaches 0.3 next to the lower pole.
