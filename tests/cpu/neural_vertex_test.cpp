@@ -292,7 +292,7 @@ TEST_CASE("A network for vertices that is not finite is given up, and paths are 
         const NeuralVertexField field = vertex.view();
         for (const SurfacePoint& point : points_between()) {
             const NeuralVertexLocation location = field.locate(point);
-            CHECK(location.mixture.count == 1);
+            CHECK(location.mixture.lobes.weight[0] == 1.0f);
             CHECK(location.mixture.pdf_sa(point.shading_normal) == Approx(vmf_peak(kCosineKappa)));
             CHECK(field.value_at(location) > 0.0f);
             CHECK(samples_follow_density(field, point, 9));

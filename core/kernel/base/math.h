@@ -96,9 +96,12 @@ PL_INLINE float log_of(float x) {
     const float p = (low * z - 2.4999993993e-1f) * z + 3.3333331174e-1f;
     return (z + (p * z * z * z - 0.5f * z * z)) + exponent * 0.69314718055994530942f;
 }
-/// e^x for x in [-87, 87], relative error below 1e-6. Polynomial of the Cephes library.
+/// e^x for x in [-87, 87], relative error below 1e-6. Polynomial of the Cephes library. Like its relatives below without a branch and
+/// without a function of a library, so that compilers make vectors of loops over it.
 PL_INLINE float exp_of(float x) {
-    const float n = std::floor(x * 1.44269504088896341f + 0.5f);
+    const float power = x * 1.44269504088896341f + 0.5f;
+    const auto truncated = static_cast<float>(static_cast<int>(power));
+    const float n = truncated - (truncated > power ? 1.0f : 0.0f);
     const float z = (x - n * 0.693359375f) + n * 2.12194440e-4f;  // ln 2 in two parts
     const float high = ((1.9875691500e-4f * z + 1.3981999507e-3f) * z + 8.3334519073e-3f) * z + 4.1665795894e-2f;
     const float p = (high * z + 1.6666665459e-1f) * z + 5.0000001201e-1f;
@@ -108,14 +111,17 @@ PL_INLINE float exp_of(float x) {
 /// From here on e^-x counts as 0.
 inline constexpr float kMostDecay = 87.0f;
 /// e^-x for x >= 0, infinite ones included, relative error below 1e-6.
-PL_HD inline float decay_of(float x) { return x < kMostDecay ? exp_of(-x) : 0.0f; }
+PL_INLINE float decay_of(float x) {
+    const float decay = exp_of(-min_of(kMostDecay, x));
+    return x < kMostDecay ? decay : 0.0f;
+}
 /// 1 - e^-x for x >= 0, relative error below 1e-6.
-PL_HD inline float complement_of_decay(float x) {
-    if (x >= 0.5f) return 1.0f - decay_of(x);
-    constexpr int kTerms = 8;
-    float sum = 1.0f;  // of x^(n-1) / n!, nested
-    for (int n = kTerms; n > 1; --n) sum = 1.0f - x * sum / static_cast<float>(n);
-    return x * sum;
+PL_INLINE float complement_of_decay(float x) {
+    constexpr float kSeries = 0.5f;
+    const float y = min_of(x, kSeries);
+    const float high = 1.0f / 120.0f - y * (1.0f / 720.0f - y * (1.0f / 5040.0f - y * (1.0f / 40320.0f)));
+    const float series = y * (1.0f - y * (0.5f - y * (1.0f / 6.0f - y * (1.0f / 24.0f - y * high))));
+    return x < kSeries ? series : 1.0f - decay_of(x);
 }
 /// -ln(1 - y) for y in [0, 1), relative error below 1e-6. Series of atanh where 1 - y has lost the digits of y.
 PL_HD inline float log_of_complement(float y) {

@@ -144,22 +144,23 @@ private:
         }
     }
     /// Shares of the lobes in the mixture's density at the site, and that density. Where all lobes underflow, the nearest has it all.
-    PL_HD float responsibilities(std::uint32_t volume, Vec3f wi, float* part) const {
-        float sum = 0.0f;
-        std::uint32_t nearest = 0;
-        float least = kInfinity;
-        for (std::uint32_t i = 0; i < lobe_count[volume]; ++i) {
+    PL_HD float responsibilities(std::uint32_t volume, Vec3f wi, float (&part)[kMostLobes]) const {
+        float exponent[kMostLobes], density[kMostLobes];
+        for (std::uint32_t i = 0; i < kMostLobes; ++i) {
             const VmfLobe lobe = lobe_of(volume, i);
             const Vec3f chord = wi - lobe.mean;
-            const float exponent = lobe.kappa * glm::dot(chord, chord);
-            if (exponent < least) nearest = i;
-            least = min_of(least, exponent);
-            part[i] = weight_of(volume, i) * vmf_peak(lobe.kappa) * decay_of(0.5f * exponent);
-            sum += part[i];
+            exponent[i] = lobe.kappa * glm::dot(chord, chord);
+            density[i] = weight_of(volume, i) * vmf_peak(lobe.kappa) * decay_of(0.5f * exponent[i]);
         }
-        const bool is_known = sum > 1.0e-20f;
-        for (std::uint32_t i = 0; i < lobe_count[volume]; ++i)
-            part[i] = is_known ? part[i] / sum : (i == nearest ? 1.0f : 0.0f);
+        const float sum = sum_by_halves(density);
+        if (sum > 1.0e-20f) {
+            for (std::uint32_t i = 0; i < kMostLobes; ++i) part[i] = density[i] / sum;
+            return sum;
+        }
+        std::uint32_t nearest = 0;
+        for (std::uint32_t i = 1; i < lobe_count[volume]; ++i)
+            if (exponent[i] < exponent[nearest]) nearest = i;
+        for (std::uint32_t i = 0; i < kMostLobes; ++i) part[i] = i == nearest ? 1.0f : 0.0f;
         return sum;
     }
 };

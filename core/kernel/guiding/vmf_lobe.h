@@ -18,16 +18,14 @@ struct VmfLobe {
 };
 
 /// Density at the mean of a lobe, per steradian.
-PL_HD inline float vmf_peak(float kappa) {
+PL_INLINE float vmf_peak(float kappa) {
     constexpr float kNearlyUniform = 1.0e-3f;  // 1 + kappa is exact to 3e-7 below it
-    if (kappa < kNearlyUniform) return kUniformSpherePdf * (1.0f + kappa);
-    constexpr float kNarrow = 10.0f;  // exp(-20) is below the last digit of 1
-    if (kappa > kNarrow) return kappa * (0.5f * kInvPi);
-    return kappa * (0.5f * kInvPi) / complement_of_decay(2.0f * kappa);
+    const float peak = kappa * (0.5f * kInvPi) / complement_of_decay(2.0f * max_of(kappa, kNearlyUniform));
+    return kappa < kNearlyUniform ? kUniformSpherePdf * (1.0f + kappa) : peak;
 }
 
 /// exp(kappa (cos - 1)), with 1 - cos as half of the squared chord, which keeps its digits near the mean.
-PL_HD inline float vmf_falloff(Vec3f mean, float kappa, Vec3f wi) {
+PL_INLINE float vmf_falloff(Vec3f mean, float kappa, Vec3f wi) {
     const Vec3f chord = wi - mean;
     return decay_of(0.5f * kappa * glm::dot(chord, chord));
 }
@@ -65,14 +63,18 @@ struct VmfProduct {
     float scale = 1.0f;
 };
 
-PL_HD inline VmfProduct vmf_product(const VmfLobe& a, const VmfLobe& b) {
+PL_INLINE VmfProduct vmf_product(const VmfLobe& a, const VmfLobe& b) {
     const Vec3f sum = a.kappa * a.mean + b.kappa * b.mean;
     const float kappa = glm::length(sum);
     const Vec3f chord = a.mean - b.mean;
     // kappa - k1 - k2, by the difference of their squares: exact for narrow lobes.
     const float excess = a.kappa * b.kappa * glm::dot(chord, chord) / max_of(kappa + a.kappa + b.kappa, 1.0e-12f);
-    const Vec3f mean = kappa > 1.0e-6f ? sum / kappa : a.mean;
-    return {{mean, min_of(kappa, kMostKappa)}, decay_of(excess)};
+    const bool is_uniform = !(kappa > 1.0e-6f);
+    const float inverse = 1.0f / (is_uniform ? 1.0f : kappa);
+    return {{{is_uniform ? a.mean.x : sum.x * inverse, is_uniform ? a.mean.y : sum.y * inverse,
+              is_uniform ? a.mean.z : sum.z * inverse},
+             min_of(kappa, kMostKappa)},
+            decay_of(excess)};
 }
 
 }  // namespace pl
