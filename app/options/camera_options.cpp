@@ -13,7 +13,7 @@ void parse_frames(Options& options, const std::string& text) {
 constexpr auto kCameraOptions = std::to_array<OptionSpec>({
     {.name = "camera", .flags = "--camera", .value = "FILE", .group = kCamera,
      .help = "JSON file {\"eye\": [x,y,z], \"target\": [x,y,z], \"up\": [x,y,z], \"fov_deg\": vertical, "
-             "\"aperture_radius\": r, \"focus_distance\": d}; overrides the scene's camera, and the options "
+             "\"aperture_radius\": r, \"focus_distance\": d, \"shift_x\": x, \"shift_y\": y}; overrides the scene's camera, and the options "
              "below override both",
      .commands = kPaths, .parse = [](Options& o, Text text) { o.camera = load_camera_file(text); }},
     {.name = "scene-camera", .flags = "--scene-camera", .value = "NAME", .group = kCamera,
@@ -55,6 +55,13 @@ constexpr auto kCameraOptions = std::to_array<OptionSpec>({
      .help = "Distance of the plane in focus, along the view",
      .commands = kPaths, .parse = parse_focus,
      .print = [](const Options& o) { return print_float(o.render.camera.focus_distance); }},
+    {.name = "shift-x", .flags = "--shift-x", .value = "X", .group = kCamera,
+     .help = "Shift of the picture to the right, in its heights, with the camera in place, as of an architect's lens",
+     .commands = kPaths, .parse = [](Options& o, Text text) { o.camera.shift_x = parse_float(text); },
+     .print = [](const Options& o) { return print_float(o.render.camera.shift.x); }},
+    {.name = "shift-y", .flags = "--shift-y", .value = "Y", .group = kCamera, .help = "The same upwards",
+     .commands = kPaths, .parse = [](Options& o, Text text) { o.camera.shift_y = parse_float(text); },
+     .print = [](const Options& o) { return print_float(o.render.camera.shift.y); }},
 });
 // clang-format on
 

@@ -1,6 +1,5 @@
 #include "core/io/camera_file.h"
 
-#include <array>
 #include <string>
 
 #include <fmt/format.h>
@@ -8,14 +7,13 @@
 #include "core/io/files.h"
 
 namespace pl {
-namespace {
 
-constexpr std::array kMembers = {"eye", "target", "up", "fov_deg", "aperture_radius", "focus_distance"};
+namespace {
 
 /// The camera in the object at `pointer`, which may have members of `others`, too. Throws Error(Input).
 CameraChoice read_camera(const JsonDocument& file, const std::string& pointer,
                          const std::vector<std::string>& others = {}) {
-    std::vector<std::string> known(kMembers.begin(), kMembers.end());
+    std::vector<std::string> known(kCameraMembers.begin(), kCameraMembers.end());
     known.insert(known.end(), others.begin(), others.end());
     if (file.object(pointer, known) == nullptr) file.fail(pointer, "expected a camera { ... }");
     const CameraChoice camera{.eye = file.vector(pointer + "/eye"),
@@ -23,7 +21,9 @@ CameraChoice read_camera(const JsonDocument& file, const std::string& pointer,
                               .up = file.vector(pointer + "/up"),
                               .fov_deg = file.number(pointer + "/fov_deg"),
                               .aperture_radius = file.number(pointer + "/aperture_radius"),
-                              .focus_distance = file.number(pointer + "/focus_distance")};
+                              .focus_distance = file.number(pointer + "/focus_distance"),
+                              .shift_x = file.number(pointer + "/shift_x"),
+                              .shift_y = file.number(pointer + "/shift_y")};
     if (camera.fov_deg && !(*camera.fov_deg > 0.0f && *camera.fov_deg < 180.0f))
         file.fail(pointer + "/fov_deg", "expected an angle between 0 and 180 degrees");
     if (camera.aperture_radius && !(*camera.aperture_radius >= 0.0f))
@@ -64,16 +64,19 @@ CameraDescription replaced(CameraDescription camera, const CameraChoice& choice)
     camera.fov_deg = choice.fov_deg.value_or(camera.fov_deg);
     camera.aperture_radius = choice.aperture_radius.value_or(camera.aperture_radius);
     camera.focus_distance = choice.focus_distance.value_or(camera.focus_distance);
+    camera.shift = {choice.shift_x.value_or(camera.shift.x), choice.shift_y.value_or(camera.shift.y)};
     return camera;
 }
 
 Json camera_json(const CameraDescription& camera) {
-    return {{"eye", vector_json(camera.eye)},
-            {"target", vector_json(camera.target)},
-            {"up", vector_json(camera.up)},
-            {"fov_deg", camera.fov_deg},
-            {"aperture_radius", camera.aperture_radius},
-            {"focus_distance", camera.focus_distance}};
+    Json json{{"eye", vector_json(camera.eye)},
+              {"target", vector_json(camera.target)},
+              {"up", vector_json(camera.up)},
+              {"fov_deg", camera.fov_deg},
+              {"aperture_radius", camera.aperture_radius},
+              {"focus_distance", camera.focus_distance}};
+    if (camera.shift != glm::vec2(0.0f)) json.update({{"shift_x", camera.shift.x}, {"shift_y", camera.shift.y}});
+    return json;
 }
 
 CameraChoice load_camera_file(const std::filesystem::path& path) {

@@ -1,6 +1,7 @@
 // Cameras in JSON files: one of --camera, or those of a path in their order.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <span>
@@ -13,6 +14,10 @@
 
 namespace pl {
 
+/// Members of a camera in a JSON file.
+inline constexpr std::array kCameraMembers = {
+    "eye", "target", "up", "fov_deg", "aperture_radius", "focus_distance", "shift_x", "shift_y"};
+
 /// The given parts of a camera; the other parts come from elsewhere.
 struct CameraChoice {
     std::optional<glm::vec3> eye;
@@ -21,12 +26,15 @@ struct CameraChoice {
     std::optional<float> fov_deg;
     std::optional<float> aperture_radius;
     std::optional<float> focus_distance;
+    std::optional<float> shift_x;
+    std::optional<float> shift_y;
 };
 
 /// The camera with the given parts replaced.
 CameraDescription replaced(CameraDescription camera, const CameraChoice& choice);
 
-/// {"eye": [x,y,z], "target": [x,y,z], "up": [x,y,z], "fov_deg": vertical, "aperture_radius": r, "focus_distance": d}.
+/// {"eye": [x,y,z], "target": [x,y,z], "up": [x,y,z], "fov_deg": vertical, "aperture_radius": r, "focus_distance": d}, and
+/// "shift_x" and "shift_y" if the picture is shifted: in its heights, right and up.
 Json camera_json(const CameraDescription& camera);
 
 /// Reads the members of camera_json(); every one may be missing. Throws Error(Input) with file and line.

@@ -49,8 +49,7 @@ void read_up(const JsonDocument& file, const LoadSettings& asked, SceneDescripti
 }
 
 void read_camera(const JsonDocument& file, const LoadSettings& asked, SceneDescription& scene) {
-    const bool given =
-        file.object("/camera", {"eye", "target", "up", "fov_deg", "aperture_radius", "focus_distance"});
+    const bool given = file.object("/camera", std::vector<std::string>(kCameraMembers.begin(), kCameraMembers.end()));
     read_up(file, asked, scene);
     if (file.has("/cameras")) {
         scene.cameras = read_named_cameras(file, frame_camera(scene, CameraDescription{}.fov_deg));
@@ -70,6 +69,8 @@ void read_camera(const JsonDocument& file, const LoadSettings& asked, SceneDescr
     if (scene.camera.eye == scene.camera.target) {
         file.fail("/camera/eye", "eye and target are the same point");
     }
+    scene.camera.shift = {file.number("/camera/shift_x").value_or(0.0f),
+                          file.number("/camera/shift_y").value_or(0.0f)};
     scene.camera.aperture_radius = file.number("/camera/aperture_radius").value_or(0.0f);
     if (scene.camera.aperture_radius < 0.0f) {
         file.fail("/camera/aperture_radius", "expected a number of at least 0");

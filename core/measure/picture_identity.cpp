@@ -18,6 +18,10 @@ std::uint64_t picture_key(const SceneDescription& scene, const RenderSettings& s
         hash.add(camera.aperture_radius);
         hash.add(camera.focus_distance);
     }
+    if (camera.shift != glm::vec2(0.0f)) {
+        hash.add(camera.shift.x);
+        hash.add(camera.shift.y);
+    }
     for (const int number : {settings.width, settings.height, settings.max_depth})
         hash.add(static_cast<std::uint64_t>(number));
     return hash.value();

@@ -100,6 +100,7 @@ CameraDescription CameraPath::between(std::size_t index, float share) const {
     camera.up = glm::length(up) > kUpright ? glm::normalize(up) : from.up;  // opposite ones have no mean
     camera.fov_deg = glm::mix(from.fov_deg, to.fov_deg, share);
     camera.aperture_radius = glm::mix(from.aperture_radius, to.aperture_radius, share);
+    camera.shift = glm::mix(from.shift, to.shift, share);
     camera.focus_distance = log_mix(from.focus_distance, to.focus_distance, share);
     return camera;
 }

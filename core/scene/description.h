@@ -160,6 +160,8 @@ struct CameraDescription {
     float fov_deg = 40.0f;
     float aperture_radius = 0.0f;  ///< of the lens; 0: pinhole
     float focus_distance = 1.0f;   ///< distance of the plane of focus, along the viewing direction
+    glm::vec2 shift{
+        0.0f};  ///< of the middle of the picture from the viewing direction, in heights of the picture, right and up
 };
 
 /// A camera that a file lists.

@@ -304,8 +304,11 @@ Camera make_camera(const CameraDescription& camera, int width, int height) {
     const Vec3d up = glm::cross(right, forward);
     const double half_height = std::tan(0.5 * static_cast<double>(camera.fov_deg) * kDegree);
     const double half_width = half_height * static_cast<double>(width) / static_cast<double>(height);
+    const Vec3d shift =
+        2.0 * half_height * (static_cast<double>(camera.shift.x) * right + static_cast<double>(camera.shift.y) * up);
     return {.eye = camera.eye,
-            .forward = Vec3f{forward},
+            .axis = Vec3f{forward},
+            .center = Vec3f{forward + shift},
             .right = Vec3f{half_width * right},
             .up = Vec3f{half_height * up},
             .aperture_radius = camera.aperture_radius,

@@ -234,6 +234,7 @@ void check_camera(std::string& list, const CameraDescription& camera) {
     if (!(std::isfinite(camera.aperture_radius) && camera.aperture_radius >= 0.0f)) {
         list += fmt::format("\n  camera: aperture radius {} is not finite and at least 0", camera.aperture_radius);
     }
+    if (!std::isfinite(camera.shift.x) || !std::isfinite(camera.shift.y)) list += "\n  camera: shift must be finite";
     if (!(std::isfinite(camera.focus_distance) && camera.focus_distance > 0.0f)) {
         list += fmt::format("\n  camera: focus distance {} is not finite and above 0", camera.focus_distance);
     }

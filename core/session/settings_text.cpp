@@ -30,6 +30,8 @@ std::vector<std::pair<std::string, std::string>> settings_text(const RenderSetti
     add("fov", settings.camera.fov_deg);
     add("aperture", settings.camera.aperture_radius);
     add("focus", settings.camera.focus_distance);
+    if (settings.camera.shift.x != 0.0f) add("shift-x", settings.camera.shift.x);
+    if (settings.camera.shift.y != 0.0f) add("shift-y", settings.camera.shift.y);
     add("max-depth", settings.max_depth);
     text.emplace_back("nee", settings.next_event ? "on" : "off");
     add("roulette", settings.roulette);

@@ -97,7 +97,7 @@ void load_and_pack(const fs::path& path) {
                 fail("a light that is no number");
     }
     const Camera camera = make_camera(scene.camera, 64, 48);
-    for (const Vec3f v : {camera.eye, camera.forward, camera.right, camera.up})
+    for (const Vec3f v : {camera.eye, camera.axis, camera.center, camera.right, camera.up})
         for (int axis = 0; axis < 3; ++axis)
             if (!std::isfinite(v[axis])) fail("a camera that is no number");
 }

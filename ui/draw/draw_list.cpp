@@ -33,9 +33,7 @@ Projection::Projection(const CameraDescription& camera, int width, int height, c
     : camera_(make_camera(camera, width, height)), image_(image),
       near_(kNearShare * glm::length(camera.target - camera.eye)) {}
 
-float Projection::depth_of(Vec3f position) const {
-    return glm::dot(position - camera_.eye, camera_.forward) / glm::dot(camera_.forward, camera_.forward);
-}
+float Projection::depth_of(Vec3f position) const { return glm::dot(position - camera_.eye, camera_.axis); }
 
 std::optional<std::array<Vec2f, 2>> Projection::clipped(Vec3f from, Vec3f to) const {
     const float a = depth_of(from);
@@ -54,7 +52,7 @@ float Projection::pixels_of(float length, float depth) const {
 
 bool Projection::may_show(Vec3f center, float radius) const {
     const auto point = (*this)(center);
-    if (!point) return depth_of(center) + radius / glm::length(camera_.forward) > near_;
+    if (!point) return depth_of(center) + radius > near_;
     // A sphere reaches somewhat farther than its radius at the depth of its middle.
     const float reach = 1.5f * pixels_of(radius, point->depth);
     return point->window.x > image_.x - reach && point->window.y > image_.y - reach &&
@@ -62,12 +60,9 @@ bool Projection::may_show(Vec3f center, float radius) const {
 }
 
 std::optional<Projection::Point> Projection::operator()(Vec3f position) const {
-    const Vec3f d = position - camera_.eye;
-    const float depth = depth_of(position);
-    if (!(depth > near_)) return std::nullopt;
-    const float x = glm::dot(d, camera_.right) / (glm::dot(camera_.right, camera_.right) * depth);
-    const float y = glm::dot(d, camera_.up) / (glm::dot(camera_.up, camera_.up) * depth);
-    return Point{{image_.x + 0.5f * (x + 1.0f) * image_.width, image_.y + 0.5f * (1.0f - y) * image_.height}, depth};
+    const FilmPosition found = film_position(camera_, position, {image_.width, image_.height});
+    if (!(found.depth > near_)) return std::nullopt;
+    return Point{{image_.x + found.film.x, image_.y + found.film.y}, found.depth};
 }
 
 }  // namespace pl

@@ -35,7 +35,9 @@ std::string thumbnail_name(const SceneDescription& scene) {
     const CameraDescription& camera = scene.camera;
     for (const glm::vec3& point : {camera.eye, camera.target, camera.up})
         for (int i = 0; i < 3; ++i) hash.add(point[i]);
-    for (const float value : {camera.fov_deg, camera.aperture_radius, camera.focus_distance}) hash.add(value);
+    for (const float value :
+         {camera.fov_deg, camera.aperture_radius, camera.focus_distance, camera.shift.x, camera.shift.y})
+        hash.add(value);
     return hash_text(hash.value()) + ".png";
 }
 

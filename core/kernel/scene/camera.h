@@ -6,35 +6,37 @@
 
 namespace pl {
 
-/// The image plane at distance 1 along `forward`; `right` and `up` are half of its width and height. With an aperture
-/// radius of 0 it is a pinhole.
+/// The image plane at distance 1 along the optical axis; `right` and `up` are half of the picture's width and height there. With an
+/// aperture radius of 0 it is a pinhole.
 struct Camera {
     Vec3f eye{0.0f};
-    Vec3f forward{0.0f, 0.0f, -1.0f};
+    Vec3f axis{0.0f, 0.0f, -1.0f};    ///< unit
+    Vec3f center{0.0f, 0.0f, -1.0f};  ///< from the eye to the middle of the picture, which a shift takes off the axis
     Vec3f right{1.0f, 0.0f, 0.0f};
     Vec3f up{0.0f, 1.0f, 0.0f};
     float aperture_radius = 0.0f;
-    float focus_distance = 1.0f;  ///< distance of the plane of focus, along `forward`
+    float focus_distance = 1.0f;  ///< distance of the plane of focus, along the axis
 };
 
 /// Camera ray through a point of the film, in pixels from the top left corner. The direction is unit.
 PL_HD inline Ray generate_ray(const Camera& camera, Vec2f film, Vec2f resolution) {
     const float x = 2.0f * (film.x / resolution.x) - 1.0f;
     const float y = 1.0f - 2.0f * (film.y / resolution.y);
-    return {.origin = camera.eye, .direction = glm::normalize(camera.forward + x * camera.right + y * camera.up)};
+    return {.origin = camera.eye, .direction = glm::normalize(camera.center + x * camera.right + y * camera.up)};
 }
 
 /// A point of the scene on the film of a pinhole, in pixels from the top left corner; inverse of generate_ray().
 struct FilmPosition {
     Vec2f film{0.0f};
-    float depth = 0.0f;  ///< along `forward`; not positive: the point is not before the camera, and has no position
+    float depth = 0.0f;  ///< along the axis; not positive: the point is not before the camera, and has no position
 };
 PL_HD inline FilmPosition film_position(const Camera& camera, Vec3f point, Vec2f resolution) {
     const Vec3f away = point - camera.eye;
-    const float depth = glm::dot(away, camera.forward) / glm::dot(camera.forward, camera.forward);
+    const float depth = glm::dot(away, camera.axis);
     if (!(depth > 0.0f)) return {};
-    const float x = glm::dot(away, camera.right) / (glm::dot(camera.right, camera.right) * depth);
-    const float y = glm::dot(away, camera.up) / (glm::dot(camera.up, camera.up) * depth);
+    const Vec3f from_center = away / depth - camera.center;
+    const float x = glm::dot(from_center, camera.right) / glm::dot(camera.right, camera.right);
+    const float y = glm::dot(from_center, camera.up) / glm::dot(camera.up, camera.up);
     return {{0.5f * (1.0f + x) * resolution.x, 0.5f * (1.0f - y) * resolution.y}, depth};
 }
 
@@ -44,7 +46,7 @@ PL_HD inline FilmPosition film_position(const Camera& camera, Vec3f point, Vec2f
 PL_HD inline Ray through_lens(const Camera& camera, const Ray& center, Vec2f u) {
     const Vec2f disk = camera.aperture_radius * square_to_disk(u);
     const Vec3f offset = disk.x * glm::normalize(camera.right) + disk.y * glm::normalize(camera.up);
-    const Vec3f focus = (camera.focus_distance / glm::dot(center.direction, camera.forward)) * center.direction;
+    const Vec3f focus = (camera.focus_distance / glm::dot(center.direction, camera.axis)) * center.direction;
     return {.origin = center.origin + offset, .direction = glm::normalize(focus - offset)};
 }
 

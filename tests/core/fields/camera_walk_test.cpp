@@ -83,7 +83,7 @@ TEST_CASE("With a volume for every side the camera changes no placement") {
 TEST_CASE("A camera before nothing leaves the placement by area with fewer volumes") {
     const HostScene scene = pack_scene(ball_over_floor());
     Camera away = camera_at(0.0f);
-    away.forward = {0, 0, 1};
+    away.axis = away.center = {0, 0, 1};
     away.up = {0, 0.001f, 0};
     CHECK(walk_from_camera(scene, away).empty());
     CHECK(same_sites(place_volumes(scene, asking_for(400), &away), place_volumes(scene, asking_for(200))));

@@ -31,6 +31,7 @@ TEST_CASE("Cameras that are written are read to the bit") {
     first.fov_deg = 33.3f;
     first.aperture_radius = 0.07f;
     first.focus_distance = 1.7f;
+    first.shift = {0.25f, -0.125f};
     const TemporaryFolder folder;
     const std::filesystem::path file = folder.path() / "path.json";
     save_cameras(file, std::vector{first, CameraDescription{}});
@@ -42,6 +43,7 @@ TEST_CASE("Cameras that are written are read to the bit") {
     CHECK(read[0].fov_deg == first.fov_deg);
     CHECK(read[0].aperture_radius == first.aperture_radius);
     CHECK(read[0].focus_distance == first.focus_distance);
+    CHECK(read[0].shift == first.shift);
     CHECK(read[1].eye == CameraDescription{}.eye);
 }
 

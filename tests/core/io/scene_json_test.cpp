@@ -48,7 +48,8 @@ TEST_CASE("Everything a scene file may say") {
     const SceneDescription scene =
         load(", \"name\": \"Test\", \"camera\": {\"eye\": [1, 2, 3], \"target\": [4, 5, 6.5], \"up\": [0, 0, "
              "1], \"fov_deg\": 30,"
-             "\"aperture_radius\": 0.25, \"focus_distance\": 2.5}, \"environment\": {\"radiance\": [0.5, 1, 2],"
+             "\"aperture_radius\": 0.25, \"focus_distance\": 2.5, \"shift_x\": 0.5, \"shift_y\": -1}, "
+             "\"environment\": {\"radiance\": [0.5, 1, 2],"
              "\"sun\": {\"direction\": [0, 2, 0], \"radiance\": [9, 8, 7], \"angle_deg\": 2}},"
              "\"materials\": {\"wall\": {\"albedo\": [0.1, 0.2, 1], \"surface\": \"plastic\", \"roughness\": 0.5, "
              "\"ior\": 1.25, \"specular\": [1, 0.5, 1], \"transmission\": [0, 0.5, 1]}, \"la/mp~\": {\"emission\": "
@@ -63,6 +64,7 @@ TEST_CASE("Everything a scene file may say") {
     CHECK(scene.camera.fov_deg == 30.0f);
     CHECK(scene.camera.aperture_radius == 0.25f);
     CHECK(scene.camera.focus_distance == 2.5f);
+    CHECK(scene.camera.shift == glm::vec2(0.5f, -1.0f));
     CHECK(scene.environment == glm::vec3(0.5f, 1, 2));
     CHECK(scene.sun.direction == glm::vec3(0, 2, 0));
     CHECK(scene.sun.radiance == glm::vec3(9, 8, 7));

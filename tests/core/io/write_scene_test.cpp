@@ -51,6 +51,12 @@ TextureDescription texture_of(std::vector<glm::vec4> texels, TextureContent cont
 
 }  // namespace
 
+TEST_CASE("write_scene: a shifted picture") {
+    SceneDescription scene = load_scene("cornell", kAssets);
+    scene.camera.shift = {0.5f, -0.25f};
+    CHECK(rewritten(scene).camera.shift == scene.camera.shift);
+}
+
 TEST_CASE("write_scene: shipped scenes without images have the same hash, camera and settings") {
     for (const std::string& name : list_scenes(kAssets)) {
         CAPTURE(name);

@@ -169,14 +169,14 @@ TEST_CASE("The camera's basis is orthogonal and as wide as the picture") {
     camera.fov_deg = 90.0f;
     const Camera basis = make_camera(camera, 200, 100);
     CHECK(basis.eye == camera.eye);
-    CHECK(basis.forward == Vec3f{0, 0, 1});
+    CHECK(basis.axis == Vec3f{0, 0, 1});
     CHECK(glm::length(basis.up) == Approx(1.0f));
     CHECK(glm::length(basis.right) == Approx(2.0f));
     CHECK(basis.right.x < 0.0f);  // looking along +z with y up, right is -x
     // The middle of the picture looks forward, its corners see half of the angle each.
-    CHECK(glm::length(generate_ray(basis, {100, 50}, {200, 100}).direction - basis.forward) < 1e-6f);
+    CHECK(glm::length(generate_ray(basis, {100, 50}, {200, 100}).direction - basis.axis) < 1e-6f);
     const Vec3f top = generate_ray(basis, {100, 0}, {200, 100}).direction;
-    CHECK(glm::dot(top, basis.forward) == Approx(std::sqrt(0.5f)));
+    CHECK(glm::dot(top, basis.axis) == Approx(std::sqrt(0.5f)));
     CHECK(top.y > 0.0f);
     CHECK(generate_ray(basis, {0, 50}, {200, 100}).direction.x > 0.0f);
 }
@@ -194,9 +194,9 @@ TEST_CASE("Cameras that look along their up vector have a basis") {
                     const Camera basis = make_camera(camera, 100, 100);
                     REQUIRE(all_finite(basis.right));
                     REQUIRE(all_finite(basis.up));
-                    REQUIRE(std::fabs(glm::length(basis.forward) - 1.0f) < 3e-7f);
-                    REQUIRE(std::fabs(glm::dot(basis.right, basis.forward)) < 3e-7f);
-                    REQUIRE(std::fabs(glm::dot(basis.up, basis.forward)) < 3e-7f);
+                    REQUIRE(std::fabs(glm::length(basis.axis) - 1.0f) < 3e-7f);
+                    REQUIRE(std::fabs(glm::dot(basis.right, basis.axis)) < 3e-7f);
+                    REQUIRE(std::fabs(glm::dot(basis.up, basis.axis)) < 3e-7f);
                     REQUIRE(std::fabs(glm::dot(basis.up, basis.right)) < 3e-7f);
                     REQUIRE(std::fabs(glm::length(basis.up) - glm::length(basis.right)) < 3e-7f);
                 }

@@ -70,6 +70,38 @@ TEST_CASE("mitsuba: the camera, its angle across or upwards, and the size of the
     CHECK(upwards.camera.target.z == 1.0f);
 }
 
+// 160 x 90 pixels of 640 x 360 from (320, 45) on, whose middle lies 80 pixels to the right and 90 above that of the film.
+TEST_CASE("mitsuba: crops of the film, and a principal point off its middle") {
+    const auto sensor = [](const std::string& values, const std::string& crop) {
+        return kSquare +
+               "<sensor type=\"perspective\"><float name=\"fov\" value=\"60\"/><string name=\"fov_axis\" "
+               "value=\"y\"/>" +
+               values +
+               "<film type=\"hdrfilm\"><integer name=\"width\" value=\"640\"/><integer name=\"height\" "
+               "value=\"360\"/>" +
+               crop + "</film></sensor>";
+    };
+    const std::string crop =
+        "<integer name=\"crop_offset_x\" value=\"320\"/><integer name=\"crop_offset_y\" value=\"45\"/>"
+        "<integer name=\"crop_width\" value=\"160\"/><integer name=\"crop_height\" value=\"90\"/>";
+    const SceneDescription cropped = load_mitsuba_text(sensor("", crop));
+    CHECK(cropped.warnings.empty());
+    CHECK(cropped.setting("size") == "160x90");
+    CHECK(std::tan(glm::radians(0.5f * cropped.camera.fov_deg)) == Approx(0.25f * std::tan(glm::radians(30.0f))));
+    CHECK(cropped.camera.shift.x == Approx(80.0f / 90.0f));
+    CHECK(cropped.camera.shift.y == Approx(1.0f));
+    const SceneDescription moved =
+        load_mitsuba_text(sensor("<float name=\"principal_point_offset_x\" value=\"0.1\"/><float "
+                                 "name=\"principal_point_offset_y\" value=\"0.2\"/>",
+                                 ""));
+    CHECK(moved.setting("size") == "640x360");
+    CHECK(moved.camera.fov_deg == Approx(60.0f));
+    CHECK(moved.camera.shift.x == Approx(64.0f / 360.0f));
+    CHECK(moved.camera.shift.y == Approx(-0.2f));
+    CHECK_THAT(input_error([&] { load_mitsuba_text(sensor("", "<integer name=\"crop_width\" value=\"641\"/>")); }),
+               contains("expected a crop within 640x360 pixels, got 641x360 at (0, 0)"));
+}
+
 TEST_CASE("mitsuba: parameters and included files") {
     const TemporaryFolder folder;
     folder.write("parts/wall.xml",
