@@ -41,6 +41,13 @@ std::string opacity_text(const MaterialDescription& material) {
     return material.opacity < 1.0f ? fmt::format(", opacity {}", print_float(material.opacity)) : "";
 }
 
+std::string blend_text(const SceneDescription& scene, const MaterialDescription& material) {
+    if (!material.blend.is_any()) return "";
+    return fmt::format(", blend of {} {}{}", print_float(material.blend.share),
+                       scene.materials[material.blend.other].name,
+                       material.textures.blend == kNoTexture ? "" : " times an image");
+}
+
 /// The light that a material sends back, and how.
 std::string surface_text(const MaterialDescription& material) {
     switch (material.kind) {
@@ -86,9 +93,9 @@ std::string report_text(const SceneReport& report) {
     text += fmt::format("triangles  {}\nlights     {} triangles\nmaterials  {}\n", scene.triangles.size(),
                         report.packed.lights.size(), scene.materials.size());
     for (const MaterialDescription& material : scene.materials)
-        text += fmt::format("           {}: {}, emits {}{}{}\n", material.name, surface_text(material),
-                            print_vector(material.emission), material.two_sided_emission ? " on both sides" : "",
-                            opacity_text(material));
+        text += fmt::format("           {}: {}{}, emits {}{}{}\n", material.name, surface_text(material),
+                            blend_text(scene, material), print_vector(material.emission),
+                            material.two_sided_emission ? " on both sides" : "", opacity_text(material));
     text += fmt::format("light      {}\n", light_text(scene));
     if (!scene.punctual_lights.empty()) text += fmt::format("           {}\n", count_text(scene.punctual_lights));
     text += fmt::format("memory     {} bytes, {:.0f} per triangle\n", bytes_of(report.packed),

@@ -8,6 +8,7 @@ namespace {
 constexpr SurfaceLobes kDiffuse{};
 constexpr MaterialImages kNoImages{};
 constexpr MaterialOpacity kOpaque{};
+constexpr MaterialBlend kPure{};
 
 bool same_images(const MaterialImages& a, const MaterialImages& b) {
     return a.albedo == b.albedo && a.roughness == b.roughness && a.emission == b.emission;
@@ -17,17 +18,23 @@ bool same_opacity(const MaterialOpacity& a, const MaterialOpacity& b) {
     return a.image == b.image && a.factor == b.factor && a.blends == b.blends;
 }
 
+bool same_blend(const MaterialBlend& a, const MaterialBlend& b) {
+    return a.other == b.other && a.share == b.share && a.image == b.image;
+}
+
 /// The properties of a material that the walks of a placement read.
 struct Looks {
     const Material& material;
     const SurfaceLobes& lobes;
     const MaterialImages& images;
     const MaterialOpacity& opacity;
+    const MaterialBlend& blend;
 
     Looks(const HostScene& scene, std::size_t index)
         : material(scene.materials[index]), lobes(scene.lobes.empty() ? kDiffuse : scene.lobes[index]),
           images(scene.material_images.empty() ? kNoImages : scene.material_images[index]),
-          opacity(scene.opacities.empty() ? kOpaque : scene.opacities[index]) {}
+          opacity(scene.opacities.empty() ? kOpaque : scene.opacities[index]),
+          blend(scene.blends.empty() ? kPure : scene.blends[index]) {}
 
     /// Opaque and diffuse without images: the directions of a walk depend on neither color nor brightness, unless the
     /// albedo is 0.
@@ -43,7 +50,7 @@ bool same_lobes(const SurfaceLobes& a, const SurfaceLobes& b) {
 
 bool same_walks(const Looks& a, const Looks& b) {
     if (a.material.reflects() != b.material.reflects() ||
-        a.material.two_sided_emission != b.material.two_sided_emission)
+        a.material.two_sided_emission != b.material.two_sided_emission || !same_blend(a.blend, b.blend))
         return false;
     if (a.is_plain() && b.is_plain()) return true;
     return a.material.albedo == b.material.albedo && same_lobes(a.lobes, b.lobes) &&

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/base/parallel_chunks.h"
+#include "core/kernel/shading/blends.h"
 #include "core/scene/position_numbers.h"
 #include "core/scene/triangle_planes.h"
 
@@ -36,12 +37,21 @@ Corners collect_corners(const HostScene& scene) {
     return corners;
 }
 
+/// Whether a material reflects diffusely, or one that it blends with.
+bool may_reflect(const SceneView& scene, std::uint32_t material) {
+    for (std::uint32_t choice = 0;; ++choice) {
+        if (scene.materials[material].reflects()) return true;
+        if (scene.blends.empty() || choice == kMostBlends || scene.blends[material].other == kNoBlend) return false;
+        material = scene.blends[material].other;
+    }
+}
+
 class SurfaceGrower {
 public:
     SurfaceGrower(const HostScene& scene, int threads)
         : scene_(scene), view_(scene.view()), corners_(collect_corners(scene)), areas_(scene.triangles.size()) {
         for_indices(view_.triangles.count, threads, [&](std::uint32_t i) {
-            if (scene_.materials[scene_.triangles[i].material].reflects()) areas_[i] = area_of(view_, i);
+            if (may_reflect(view_, scene_.triangles[i].material)) areas_[i] = area_of(view_, i);
         });
         found_.of_triangle.assign(scene.triangles.size(), kNoSurface);
         last_visitor_.assign(corners_.start.size(), kNoSurface);

@@ -15,6 +15,9 @@ inline constexpr std::uint32_t kWalkChunk = 256;
 inline constexpr std::uint32_t kLightWalk = 0;
 inline constexpr std::uint32_t kCameraWalk = 1;
 
+/// Effects of the BSDFs that walks sample: colors do not matter to them.
+inline constexpr FeatureSet kWalkEffects = kLobeFeatures.with(Feature::Blends);
+
 /// The direction in which a walk leaves a surface; black if it ends there. u in [0,1)^4.
 inline Vec3f leave_surface(const SurfacePoint& point, const LayeredBsdf& bsdf, Vec4f u) {
     if (u.z < bsdf.delta_probability()) return bsdf.sample_delta<kEveryFeature>(point, u.w).wi;

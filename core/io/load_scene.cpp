@@ -16,6 +16,7 @@
 #include "core/io/scene_json.h"
 #include "core/io/scene_knobs.h"
 #include "core/io/scene_materials.h"
+#include "core/scene/blends.h"
 #include "core/scene/default_light.h"
 #include "core/scene/up_axis.h"
 #include "core/scene/validate.h"
@@ -92,7 +93,8 @@ void see_to_light(const fs::path& path, const LoadSettings& asked, SceneDescript
 /// Without texture coordinates a triangle shows a single point of the image.
 void warn_of_missing_uvs(SceneDescription& scene) {
     const auto lacks = [&](const TriangleDescription& t) {
-        return scene.materials[t.material].textures.any() && t.uv.x == TriangleDescription::kNoUv;
+        return t.uv.x == TriangleDescription::kNoUv &&
+               any_shown(scene.materials, t.material, [](const auto& material) { return material.textures.any(); });
     };
     const auto count = std::count_if(scene.triangles.begin(), scene.triangles.end(), lacks);
     if (count > 0) {

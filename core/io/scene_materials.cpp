@@ -16,6 +16,7 @@
 #include "core/io/sky/sky_model.h"
 #include "core/io/surface_names.h"
 #include "core/io/texture_file.h"
+#include "core/scene/blends.h"
 
 namespace pl {
 
@@ -57,16 +58,17 @@ std::filesystem::path image_path(const JsonDocument& file, const SceneDescriptio
     return path;
 }
 
-MaterialDescription& find_material(const JsonDocument& file, SceneDescription& scene, const std::string& name) {
+/// Number of the material of this name; `pointer`: of the member with the name.
+std::uint32_t find_material(const JsonDocument& file, const SceneDescription& scene, const std::string& pointer,
+                            const std::string& name) {
     std::vector<std::string> names;
-    for (MaterialDescription& material : scene.materials) {
-        if (material.name == name) {
-            return material;
+    for (std::uint32_t i = 0; i < scene.materials.size(); ++i) {
+        if (scene.materials[i].name == name) {
+            return i;
         }
-        names.push_back(material.name);
+        names.push_back(scene.materials[i].name);
     }
-    file.fail("/materials" + pointer_step(name),
-              fmt::format("the scene has no such material, did you mean '{}'?", nearest_name(name, names)));
+    file.fail(pointer, fmt::format("the scene has no such material, did you mean '{}'?", nearest_name(name, names)));
 }
 
 void read_surface(const JsonDocument& file, const std::string& at, MaterialDescription& material) {
@@ -109,7 +111,8 @@ void read_images(const JsonDocument& file, const std::string& at, SceneDescripti
                              Slot{"/roughness_map", &TextureUse::roughness, TextureContent::Number},
                              Slot{"/emission_map", &TextureUse::emission, TextureContent::Color},
                              Slot{"/opacity_map", &TextureUse::opacity, TextureContent::Opacity},
-                             Slot{"/normal_map", &TextureUse::normal, TextureContent::Normal}}) {
+                             Slot{"/normal_map", &TextureUse::normal, TextureContent::Normal},
+                             Slot{"/blend/image", &TextureUse::blend, TextureContent::Number}}) {
         const std::optional<std::string> name = file.text(at + slot.key);
         const bool own_repeats = read_wrap(file, at + slot.key + "_wrap", repeats);
         if (!name) {
@@ -143,6 +146,30 @@ void read_opacity(const JsonDocument& file, const std::string& at, MaterialDescr
     material.opacity = opacity.value_or(material.opacity);
     material.opacity_rule =
         read_choice<OpacityRule>(file, at + "/opacity_rule", kOpacityRuleNames).value_or(standard);
+}
+
+void read_blend(const JsonDocument& file, const std::string& at, const SceneDescription& scene,
+                BlendDescription& blend) {
+    if (file.object(at, {"with", "share", "image", "image_wrap"}) == nullptr) {
+        return;
+    }
+    if (const std::optional<std::string> with = file.text(at + "/with")) {
+        blend.other = with->empty() ? kNoMaterial : find_material(file, scene, at + "/with", *with);
+    } else if (!blend.is_any()) {
+        file.fail(at, "expected 'with', the name of a material, got none");
+    }
+    blend.share = read_within(file, at + "/share", 0.0f, 1.0f).value_or(blend.share);
+}
+
+/// Chains of blends are known once all materials are read.
+void check_blends(const JsonDocument& file, const SceneDescription& scene) {
+    for (const MaterialDescription& material : scene.materials) {
+        const std::string at = "/materials" + pointer_step(material.name) + "/blend";
+        const std::string error = file.has(at) ? error_of_blend(scene.materials, material) : "";
+        if (!error.empty()) {
+            file.fail(at, error);
+        }
+    }
 }
 
 void read_sun(const JsonDocument& file, SunDescription& sun) {
@@ -203,20 +230,38 @@ void read_materials(const JsonDocument& file, SceneDescription& scene) {
     }
     for (const auto& [name, overrides] : all->items()) {
         const std::string at = "/materials" + pointer_step(name);
-        file.object(at, {"albedo",           "emission",           "two_sided_emission",
-                         "surface",          "roughness",          "ior",
-                         "specular",         "edge_tint",          "transmission",
-                         "albedo_map",       "roughness_map",      "emission_map",
-                         "opacity_map",      "normal_map",         "wrap",
-                         "albedo_map_wrap",  "roughness_map_wrap", "emission_map_wrap",
-                         "opacity_map_wrap", "normal_map_wrap",    "normal_strength",
-                         "normal_green",     "absorption",         "opacity",
-                         "opacity_rule"});
-        MaterialDescription& material = find_material(file, scene, name);
+        file.object(at, {"albedo",
+                         "emission",
+                         "two_sided_emission",
+                         "surface",
+                         "roughness",
+                         "ior",
+                         "specular",
+                         "edge_tint",
+                         "transmission",
+                         "albedo_map",
+                         "roughness_map",
+                         "emission_map",
+                         "opacity_map",
+                         "normal_map",
+                         "wrap",
+                         "albedo_map_wrap",
+                         "roughness_map_wrap",
+                         "emission_map_wrap",
+                         "opacity_map_wrap",
+                         "normal_map_wrap",
+                         "normal_strength",
+                         "normal_green",
+                         "absorption",
+                         "opacity",
+                         "opacity_rule",
+                         "blend"});
+        MaterialDescription& material = scene.materials[find_material(file, scene, at, name)];
         material.albedo = read_share(file, at + "/albedo").value_or(material.albedo);
         material.emission = read_light(file, at + "/emission").value_or(material.emission);
         material.two_sided_emission = file.boolean(at + "/two_sided_emission").value_or(material.two_sided_emission);
         read_surface(file, at, material);
+        read_blend(file, at + "/blend", scene, material.blend);
         read_images(file, at, scene, material.textures);
         material.normal_strength =
             read_within(file, at + "/normal_strength", 0.0f, kMostNormalStrength).value_or(material.normal_strength);
@@ -224,6 +269,7 @@ void read_materials(const JsonDocument& file, SceneDescription& scene) {
             read_choice<NormalGreen>(file, at + "/normal_green", kNormalGreenNames).value_or(material.normal_green);
         read_opacity(file, at, material);
     }
+    check_blends(file, scene);
 }
 
 void read_material_file(const std::filesystem::path& path, SceneDescription& scene) {
@@ -251,6 +297,7 @@ Json material_json(const MaterialDescription& material) {
               {"opacity_rule", kOpacityRuleNames[static_cast<std::size_t>(material.opacity_rule)]}};
     if (material.edge_tint != glm::vec3(1.0f)) json["edge_tint"] = vector_json(material.edge_tint);
     if (material.absorption != glm::vec3(0.0f)) json["absorption"] = vector_json(material.absorption);
+    if (material.blend.is_any()) json["blend"] = {{"share", material.blend.share}};
     return json;
 }
 

@@ -16,6 +16,8 @@ namespace pl {
 ///   roughness, ior, normal_strength, opacity   numbers
 ///   opacity_rule                               "threshold", "blend": the standard of an opacity below 1
 ///   normal_green                               "up", "down", "left"
+///   blend                                      { with, share, image, image_wrap }: the name of a material, "" for none; a number in
+///                                              [0, 1]; an image that multiplies it, as below
 ///   albedo_map, roughness_map, emission_map, opacity_map, normal_map    images in the folder of the scene or below; "" for none
 ///   wrap                                       "repeat" (default) or "clamp", for these images
 ///   albedo_map_wrap and so on                  the same for one of them
@@ -26,10 +28,11 @@ void read_materials(const JsonDocument& file, SceneDescription& scene);
 /// Throws Error(Input) with file and line.
 void read_material_file(const std::filesystem::path& path, SceneDescription& scene);
 
-/// All values of a material but its images, for read_materials().
+/// All values of a material but its images and the name of the one that it blends with, for read_materials().
 Json material_json(const MaterialDescription& material);
 
-/// Writes such a file with all values of these materials but their images. Throws Error(Runtime).
+/// Writes such a file with all values of these materials but their images and the names of those that they blend with. Throws
+/// Error(Runtime).
 void write_material_file(const std::filesystem::path& path, const std::vector<MaterialDescription>& materials);
 
 /// Reads `environment`:

@@ -84,7 +84,7 @@ public:
         for (const PunctualLightDescription& light : scene_.punctual_lights)
             document["lights"].push_back(punctual_light_json(light));
         for (std::size_t i = 0; i < names.size(); ++i)
-            document["materials"][names[i]] = material(scene_.materials[i]);
+            document["materials"][names[i]] = material(scene_.materials[i], names);
         add_settings(document);
         return document;
     }
@@ -123,7 +123,8 @@ private:
         if (!environment.empty()) document["environment"] = std::move(environment);
     }
 
-    Json material(const MaterialDescription& from) {
+    /// `names`: of all materials.
+    Json material(const MaterialDescription& from, const std::vector<std::string>& names) {
         Json json = material_json(from);
         add_image(json, "albedo_map", from.textures.albedo, TextureContent::Color);
         add_image(json, "roughness_map", from.textures.roughness, TextureContent::Number);
@@ -133,6 +134,10 @@ private:
         if (from.textures.normal != kNoTexture) {
             json["normal_strength"] = from.normal_strength;
             json["normal_green"] = kNormalGreenNames[static_cast<std::size_t>(from.normal_green)];
+        }
+        if (from.blend.is_any()) {
+            json["blend"]["with"] = names[from.blend.other];
+            add_image(json["blend"], "image", from.textures.blend, TextureContent::Number);
         }
         return json;
     }

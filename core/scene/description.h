@@ -25,8 +25,9 @@ struct TextureUse {
     std::uint32_t emission = kNoTexture;
     std::uint32_t opacity = kNoTexture;  ///< alpha channel; see OpacityRule
     std::uint32_t normal = kNoTexture;   ///< normals, which replace those of the surface: see normal_map.h
+    std::uint32_t blend = kNoTexture;    ///< first channel; multiplies the share of a blend
 
-    bool any() const { return (albedo & roughness & emission & opacity & normal) != kNoTexture; }
+    bool any() const { return (albedo & roughness & emission & opacity & normal & blend) != kNoTexture; }
     friend bool operator==(const TextureUse&, const TextureUse&) = default;
 };
 
@@ -54,6 +55,19 @@ enum class OpacityRule : std::uint32_t {
     Blend,      ///< the share of light that the surface meets; the rest goes straight on
 };
 
+/// No material.
+inline constexpr std::uint32_t kNoMaterial = 0xffffffffu;
+
+/// Another material in the place of a material's reflection and transmission, with the probability of its share. Emission, opacity and
+/// normals are those of the material that blends.
+struct BlendDescription {
+    std::uint32_t other = kNoMaterial;  ///< index into SceneDescription::materials; it may blend itself, in no circle
+    float share = 0.5f;                 ///< of the other one, in [0, 1]; TextureUse::blend multiplies it
+
+    bool is_any() const { return other != kNoMaterial; }
+    friend bool operator==(const BlendDescription&, const BlendDescription&) = default;
+};
+
 /// Reflection, transmission and emission of a surface. Colors are linear RGB.
 struct MaterialDescription {
     std::string name;
@@ -72,6 +86,7 @@ struct MaterialDescription {
     NormalGreen normal_green = NormalGreen::Up;
     float opacity = 1.0f;  ///< in [0, 1]
     OpacityRule opacity_rule = OpacityRule::Threshold;
+    BlendDescription blend{};
 
     /// Whether rays may pass the surface as if it were not there.
     bool may_have_holes() const { return textures.opacity != kNoTexture || opacity < 1.0f; }

@@ -5,6 +5,7 @@
 #include <tuple>
 #include <utility>
 
+#include "core/scene/blends.h"
 #include "core/scene/connections.h"
 #include "core/scene/glass.h"
 #include "core/scene/position_numbers.h"
@@ -20,8 +21,11 @@ struct Edge {
     auto ends() const { return std::tie(low, high); }
 };
 
-/// Opaque: neither a dielectric nor with holes or partial opacity.
-bool is_solid(const MaterialDescription& material) { return !is_glass(material.kind) && !material.may_have_holes(); }
+/// Opaque: neither glass, nor a blend with it, nor with holes or partial opacity.
+bool is_solid(const SceneDescription& scene, std::uint32_t material) {
+    if (scene.materials[material].may_have_holes()) return false;
+    return !any_shown(scene.materials, material, [](const MaterialDescription& m) { return is_glass(m.kind); });
+}
 
 /// Edges of all opaque triangles with an area, sorted by their ends.
 std::vector<Edge> edges_of(const SceneDescription& scene) {
@@ -33,7 +37,7 @@ std::vector<Edge> edges_of(const SceneDescription& scene) {
     edges.reserve(3 * scene.triangles.size());
     for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) {
         const TriangleDescription& triangle = scene.triangles[t];
-        if (!is_solid(scene.materials[triangle.material])) continue;
+        if (!is_solid(scene, triangle.material)) continue;
         const std::array<std::uint32_t, 3> corner{places[triangle.vertex[0]], places[triangle.vertex[1]],
                                                   places[triangle.vertex[2]]};
         if (corner[0] == corner[1] || corner[1] == corner[2] || corner[2] == corner[0]) continue;

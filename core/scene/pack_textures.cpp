@@ -60,6 +60,14 @@ public:
         return {of_image < 1.0f ? image(texture) : kNoImage, material.opacity, blends ? 1u : 0u};
     }
 
+    /// The standard, which does not blend, unless some ray may meet the other material.
+    MaterialBlend pack_blend(const MaterialDescription& material) {
+        const auto& [other, share] = material.blend;
+        if (other == kNoMaterial || share == 0.0f) return {};
+        const std::uint32_t texture = material.textures.blend;
+        return {other, share, texture == kNoTexture ? kNoImage : image(texture)};
+    }
+
     NormalMap pack_normals(const MaterialDescription& material) {
         if (material.textures.normal == kNoTexture || material.normal_strength == 0.0f) return {};
         const float strength = material.normal_strength;
@@ -87,6 +95,23 @@ private:
     std::vector<std::uint32_t> image_of_;
 };
 
+/// Materials that paths meet: those of triangles, and those that they blend with.
+struct Uses {
+    std::vector<bool> on_triangles;
+    std::vector<bool> shown;
+
+    explicit Uses(const SceneDescription& scene) : on_triangles(scene.materials.size(), false) {
+        for (const TriangleDescription& t : scene.triangles) on_triangles[t.material] = true;
+        shown = on_triangles;
+        for (std::size_t m = 0; m < shown.size(); ++m) {
+            if (!on_triangles[m]) continue;
+            for (std::uint32_t other = scene.materials[m].blend.other; other != kNoMaterial;
+                 other = scene.materials[other].blend.other)
+                shown[other] = true;
+        }
+    }
+};
+
 void pack_uvs(const SceneDescription& scene, HostScene& packed) {
     packed.uvs = scene.uvs;
     const auto origin = static_cast<std::uint32_t>(packed.uvs.size());
@@ -101,25 +126,29 @@ void pack_uvs(const SceneDescription& scene, HostScene& packed) {
 }  // namespace
 
 void pack_textures(const SceneDescription& scene, HostScene& packed) {
-    std::vector<bool> used(scene.materials.size(), false);
-    for (const TriangleDescription& t : scene.triangles) used[t.material] = true;
+    const Uses uses(scene);
     ImagePacker packer(scene, packed);
     std::vector<MaterialImages> of_material(scene.materials.size());
     std::vector<NormalMap> normal_maps(scene.materials.size());
     std::vector<MaterialOpacity> opacities(scene.materials.size());
+    std::vector<MaterialBlend> blends(scene.materials.size());
     bool has_normals = false;
     bool has_holes = false;
+    bool has_blends = false;
     for (std::size_t m = 0; m < scene.materials.size(); ++m) {
-        if (!used[m]) continue;
-        opacities[m] = packer.pack_opacity(scene.materials[m]);
+        if (!uses.shown[m]) continue;
+        blends[m] = packer.pack_blend(scene.materials[m]);
+        has_blends = has_blends || blends[m].other != kNoBlend;
+        if (uses.on_triangles[m]) opacities[m] = packer.pack_opacity(scene.materials[m]);
         has_holes = has_holes || opacities[m].image != kNoImage || opacities[m].factor < 1.0f;
         if (!scene.materials[m].textures.any()) continue;
         const bool is_rough = !packed.lobes.empty() && packed.lobes[m].roughness > 0.0f;
         of_material[m] = packer.pack(scene.materials[m], is_rough, packed.materials[m]);
-        normal_maps[m] = packer.pack_normals(scene.materials[m]);
+        if (uses.on_triangles[m]) normal_maps[m] = packer.pack_normals(scene.materials[m]);
         has_normals = has_normals || normal_maps[m].image != kNoImage;
     }
     if (has_holes) packed.opacities = std::move(opacities);
+    if (has_blends) packed.blends = std::move(blends);
     if (packed.images.empty()) return;
     packed.material_images = std::move(of_material);
     if (has_normals) packed.normal_maps = std::move(normal_maps);

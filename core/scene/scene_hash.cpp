@@ -22,8 +22,8 @@ void add(Fnv1a& hash, const glm::uvec3& v) {
     hash.add(std::uint64_t{v.z});
 }
 
-/// Adds the optional parts of a scene (lobes, colors of vertices, opacities, textures, far lights, lights without extent), each preceded
-/// by its name. Absent parts add nothing, so that a new kind of part does not change the hashes of existing scenes.
+/// Adds the optional parts of a scene (lobes, colors of vertices, opacities, blends, textures, far lights, lights without extent), each
+/// preceded by its name. Absent parts add nothing, so that a new kind of part does not change the hashes of existing scenes.
 class PartHasher {
 public:
     explicit PartHasher(Fnv1a& hash) : hash_(hash) {}
@@ -61,6 +61,17 @@ public:
             begin("opacity", i);
             hash_.add(m.opacity);
             hash_.add(std::uint64_t{static_cast<std::uint32_t>(m.opacity_rule)});
+        }
+    }
+
+    void add_blends(const std::vector<MaterialDescription>& materials) {
+        for (std::size_t i = 0; i < materials.size(); ++i) {
+            const MaterialDescription& m = materials[i];
+            if (!m.blend.is_any()) continue;
+            begin("blend", i);
+            hash_.add(std::uint64_t{m.blend.other});
+            hash_.add(m.blend.share);
+            hash_.add(std::uint64_t{m.textures.blend});
         }
     }
 
@@ -160,6 +171,7 @@ std::string scene_hash(const SceneDescription& scene) {
     parts.add_surfaces(scene.materials);
     parts.add_vertex_colors(scene.vertex_colors);
     parts.add_opacities(scene.materials);
+    parts.add_blends(scene.materials);
     parts.add_textures(scene);
     parts.add_far_lights(scene);
     parts.add_punctual_lights(scene.punctual_lights);

@@ -25,6 +25,7 @@ struct SceneStorage {
     Array<MaterialImages> material_images;
     Array<NormalMap> normal_maps;
     Array<MaterialOpacity> opacities;
+    Array<MaterialBlend> blends;
     Array<Light> lights;
     Array<LightNode> light_nodes;
     Array<LightPlace> light_places;
@@ -65,6 +66,7 @@ struct SceneStorage {
                          .of_material = view_of(material_images),
                          .normal_maps = view_of(normal_maps)},
             .opacities = view_of(opacities),
+            .blends = view_of(blends),
             .lights = view_of(lights),
             .light_tree = {.nodes = view_of(light_nodes),
                            .of_light = view_of(light_places),
@@ -101,6 +103,7 @@ void zip(const SceneStorage<From>& from, SceneStorage<To>& to, Fn&& fn) {
     fn(from.material_images, to.material_images);
     fn(from.normal_maps, to.normal_maps);
     fn(from.opacities, to.opacities);
+    fn(from.blends, to.blends);
     fn(from.lights, to.lights);
     fn(from.light_nodes, to.light_nodes);
     fn(from.light_places, to.light_places);

@@ -4,11 +4,13 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "core/base/error.h"
 #include "core/kernel/base/math.h"
+#include "core/scene/blends.h"
 #include "core/scene/punctual_lights.h"
 
 namespace pl {
@@ -181,7 +183,8 @@ void check_texture_uses(std::string& list, std::span<const MaterialDescription> 
     Complaint light(list);
     for (const MaterialDescription& m : materials) {
         const TextureUse& use = m.textures;
-        for (const std::uint32_t texture : {use.albedo, use.roughness, use.emission, use.opacity, use.normal}) {
+        for (const std::uint32_t texture :
+             {use.albedo, use.roughness, use.emission, use.opacity, use.normal, use.blend}) {
             if (texture != kNoTexture && texture >= textures.size()) {
                 index.add([&] { return fmt::format("material '{}': there is no texture {}", m.name, texture); });
             }
@@ -189,6 +192,22 @@ void check_texture_uses(std::string& list, std::span<const MaterialDescription> 
         if (use.emission < textures.size() && !is_finite(m.emission * brightest_of(textures[use.emission]))) {
             light.add([&] { return fmt::format("material '{}': emission times its texture is not finite", m.name); });
         }
+    }
+}
+
+/// Blends with a material that exists, in no circle, without solid glass, whose inside paths could leave as another material.
+void check_blends(std::string& list, std::span<const MaterialDescription> materials) {
+    Complaint share(list);
+    Complaint other(list);
+    for (const MaterialDescription& m : materials) {
+        if (!m.blend.is_any()) continue;
+        if (!within(m.blend.share, 0.0f, 1.0f))
+            share.add([&] {
+                return fmt::format("material '{}': the share {} of a blend is not within [0, 1]", m.name,
+                                   m.blend.share);
+            });
+        const std::string error = error_of_blend(materials, m);
+        if (!error.empty()) other.add([&] { return fmt::format("material '{}': {}", m.name, error); });
     }
 }
 
@@ -255,6 +274,7 @@ void validate_scene(const SceneDescription& scene) {
     check_surfaces(list, scene.materials);
     check_textures(list, scene.textures);
     check_texture_uses(list, scene.materials, scene.textures);
+    check_blends(list, scene.materials);
     check_far_lights(list, scene);
     list += complaints_about(scene.punctual_lights);
     check_camera(list, scene.camera);
@@ -266,11 +286,14 @@ void validate_scene(const SceneDescription& scene) {
     }
 }
 
-void validate_material(const MaterialDescription& material, const SceneDescription& scene) {
+void validate_material(const MaterialDescription& material, std::uint32_t index, const SceneDescription& scene) {
     std::string list;
     check_materials(list, {&material, 1});
     check_surfaces(list, {&material, 1});
     check_texture_uses(list, {&material, 1}, scene.textures);
+    std::vector<MaterialDescription> materials = scene.materials;
+    materials[index] = material;
+    check_blends(list, materials);
     if (!list.empty()) {
         throw Error(ErrorKind::Input, fmt::format("the material is not valid:{}", list));
     }

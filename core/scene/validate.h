@@ -10,8 +10,8 @@ namespace pl {
 /// far lights out of range, a camera whose eye and target coincide or whose angle is outside (0, 180) degrees.
 void validate_scene(const SceneDescription& scene);
 
-/// validate_scene() for one new material of a valid scene.
-void validate_material(const MaterialDescription& material, const SceneDescription& scene);
+/// validate_scene() for a new material in the place of one of a valid scene.
+void validate_material(const MaterialDescription& material, std::uint32_t index, const SceneDescription& scene);
 
 /// The camera's up vector, unless it is parallel to the viewing direction; then an axis that is not. Expects a camera
 /// that validate_scene() accepts.

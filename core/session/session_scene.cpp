@@ -18,7 +18,7 @@ SessionScene SessionScene::with_material(std::uint32_t index, const MaterialDesc
     if (index >= description_->materials.size())
         throw Error(ErrorKind::Usage, "material " + std::to_string(index) + " does not exist: expected 0 to " +
                                           std::to_string(description_->materials.size()) + " (exclusive)");
-    validate_material(material, *description_);
+    validate_material(material, index, *description_);
     auto description = std::make_shared<SceneDescription>(*description_);
     description->materials[index] = material;
     SessionScene changed;

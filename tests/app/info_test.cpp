@@ -45,6 +45,11 @@ TEST_CASE("info describes metals and glass by what they are") {
     CHECK_THAT(text, contains("pane: glass of ior 1.5, transmits 1,0.5,1, smooth, emits 0,0,0\n"));
     CHECK_THAT(text, contains("lacquer: reflects 0.5,0.25,0 under a coat of ior 1.5, smooth, emits 0,0,0\n"));
     CHECK_THAT(text, contains("wall: reflects 0.5,0.5,0.5, emits 0,0,0\n"));
+    write_all(folder / "a.json", R"({"schema": "pathlight.scene/1", "obj": "a.obj",
+        "materials": {"gold": {"blend": {"with": "wall", "share": 0.4}}}})");
+    const std::string worn = run_program({"info", folder / "a.json", "-q"}).out;
+    CHECK_THAT(worn, contains("gold: metal, reflects 1,0.75,0.25, roughness 0.5, blend of 0.4 wall, emits 0,0,0\n"));
+    CHECK_THAT(worn, contains("blends: of 1 material: gold\n"));
     const ProgramResult json = run_program({"info", folder / "a.obj", "--json"});
     const ordered_json gold = ordered_json::parse(lines_of(json.out).back())["materials"][0];
     CHECK(gold["surface"] == "conductor");

@@ -30,6 +30,7 @@ EFFECTS = {
     "shading/light_tree.h": "gallery",
     "shading/delta_lights.h": str(Path(__file__).with_name("ink.json")),
     "shading/absorption.h": str(Path(__file__).with_name("ink.json")),
+    "shading/blends.h": str(Path(__file__).with_name("rust.json")),
 }
 PLAIN = (["cornell", "--nee", "off"], ["cornell", "--nee", "on"], ["cornell", "--method", "reinforcement", "--nee", "on"],
          ["cornell", "--method", "precomputed", "--bins", "16"], ["door", "--nee", "on"], ["sky", "--nee", "on"])
@@ -49,7 +50,7 @@ def spent_in(counts, file):
 
 # Left out by the quick check: many runs under callgrind take long.
 QUICK_PLAIN = PLAIN[2:3]
-QUICK_SCENES = ("coats", str(Path(__file__).with_name("ink.json")))
+QUICK_SCENES = ("coats", str(Path(__file__).with_name("ink.json")), str(Path(__file__).with_name("rust.json")))
 
 
 def main():

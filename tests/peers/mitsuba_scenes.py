@@ -144,6 +144,30 @@ def textured(folder):
     return scene(content, eye=(0.4, 1.7, 3.4), target=(0, 0.5, 0))
 
 
+def blend(weight, first, second):
+    return f'<bsdf type="blendbsdf">{weight}{first}{second}</bsdf>'
+
+
+def blended(folder):
+    """Blends by numbers, one inside of another, and by an image; without mirrors, which Mitsuba blends wrongly."""
+    (folder / "veil.png").write_bytes(png(32, 32, veil))
+    (folder / "ground.obj").write_text(GROUND)
+    image = ('<texture type="bitmap" name="weight"><string name="filename" value="veil.png"/>'
+             '<boolean name="raw" value="true"/></texture>')
+
+    def weight(value):
+        return f'<float name="weight" value="{value}"/>'
+
+    metal = rough_metal(0.01)
+    ground_surface = blend(image, diffuse(RED), diffuse(WHITE))
+    content = (f'<shape type="obj"><string name="filename" value="ground.obj"/>'
+               f'<bsdf type="twosided">{ground_surface}</bsdf></shape>' + sky())
+    content += box(blend(weight(0.4), metal, diffuse(RED)), (-0.55, 0.59, -0.4), (0.35, 0.6, 0.35), 25)
+    content += box(blend(weight(0.3), blend(weight(0.6), diffuse(GREEN), metal), blend(weight(0.5), diffuse("0, 0, 0"), diffuse(WHITE))),
+                   (0.5, 0.39, 0.3), (0.4, 0.4, 0.4), -20)
+    return scene(content, eye=(0.4, 1.7, 3.4), target=(0, 0.5, 0))
+
+
 def veil(x, y):
     """Soft stripes from clear to opaque, which show the direction of an image."""
     return (round(127.5 * (1 + math.cos(math.pi * (x + y / 2) / 8))),) * 3

@@ -53,6 +53,7 @@ MITSUBA = [
     Case("glass", lambda folder: xml.outside(xml.sky(), xml.GLASS, xml.GLASS), GLOSSY, 16, 32),
     Case("stained-glass", lambda folder: xml.stained_glass(), GLOSSY, 32, 96),
     Case("thin-panes", lambda folder: xml.outside(xml.sky(), xml.PANE, xml.PANE), GLOSSY, 16, 32),
+    Case("blends", xml.blended, GLOSSY, 32, 96),
     Case("rough-glass", lambda folder: xml.outside(xml.sky(), xml.rough_glass(0.3), xml.rough_glass(0.1)), GLOSSY, 16, 32,
          ((0.036, 0.043),) * 3, "as for metal: ours loses nothing in scattering between facets"),
     Case("plastic", lambda folder: xml.in_room(xml.plastic(), xml.plastic()), GLOSSY, 32, 96),

@@ -66,6 +66,10 @@ TEST_CASE("Enclosure: light passes through glass and holes, and triangles withou
     SceneDescription window = box;
     window.materials[kWallX0].kind = SurfaceKind::Dielectric;
     CHECK_FALSE(Enclosure(window).contains(glm::vec3{0.5f}));
+    SceneDescription part = box;
+    part.materials.push_back({.name = "pane", .kind = SurfaceKind::Pane});
+    part.materials[kWallX0].blend = {.other = static_cast<std::uint32_t>(part.materials.size() - 1)};
+    CHECK_FALSE(Enclosure(part).contains(glm::vec3{0.5f}));
     SceneDescription net = box;
     net.materials[kWallX0].textures.opacity = 0;
     CHECK_FALSE(Enclosure(net).contains(glm::vec3{0.5f}));

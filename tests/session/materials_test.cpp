@@ -83,6 +83,7 @@ std::vector<Change> all_changes() {
                         m.opacity_rule = OpacityRule::Blend;
                     }),
         make_change("textured-room", "lattice", false, [](M& m) { m.opacity_rule = OpacityRule::Blend; }),
+        make_change("spheres", "mirror", false, [](M& m) { m.blend = {.other = 0, .share = 0.4f}; }),
         make_change("two-lights", "white", true, [](M& m) { m.albedo *= 0.5f; }),
     };
 }
@@ -192,6 +193,8 @@ TEST_CASE("Material edit: a bad value is refused with the reason, and nothing ch
     refused("specular", [](auto& m) { m.specular.x = -0.1f; });
     refused("transmission", [](auto& m) { m.transmission.x = 2.0f; });
     refused("no texture 7", [](auto& m) { m.textures.albedo = 7; });
+    refused("a circle", [](auto& m) { m.blend = {.other = 0}; });
+    refused("got number 99", [](auto& m) { m.blend = {.other = 99}; });
     const auto last = static_cast<std::uint32_t>(scene.materials.size());
     error_message(ErrorKind::Usage, [&] { session.apply(EditMaterial{last, scene.materials[0]}); });
     CHECK(session.packed_scene() == packed);

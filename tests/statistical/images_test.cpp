@@ -122,6 +122,34 @@ TEST_CASE("A partly opaque sheet over a plane under an even sky shows its closed
     }
 }
 
+// Each reflection is by either material: the light between sheet and plane depends on their mean albedos alone. The plane is a chain of
+// three materials; the sheet blends by an image, and its opacity decides about the same hits. S1 as above.
+TEST_CASE(
+    "A blended, partly opaque sheet over a blended plane under an even sky shows its closed form by every method") {
+    constexpr float kOpacity = 0.4f;
+    SceneDescription scene = veiled_plane(0.9f, 0.2f, kOpacity, false);
+    scene.materials.insert(scene.materials.end(), {gray(0.3f), gray(0.6f), gray(1.0f)});
+    scene.materials[0].blend = {.other = 2, .share = 0.5f};
+    scene.materials[2].blend = {.other = 3, .share = 0.2f};
+    scene.materials[1].blend = {.other = 4, .share = 0.8f};
+    scene.materials[1].textures.blend = 0;
+    scene.textures.push_back(
+        {.content = TextureContent::Number, .width = 1, .height = 1, .texels = {glm::vec4(0.5f, 1, 1, 1)}});
+    scene.uvs = {{0, 0}, {1, 0}, {0, 1}};
+    scene.triangles[1].uv = {0, 1, 2};
+    scene.environment_map = linear_sky(0.75f, 0.0f);
+    scene.environment = glm::vec3(0.25f);
+    const double plane = 0.5 * 0.9 + 0.5 * (0.8 * 0.3 + 0.2 * 0.6);
+    const double sheet = 0.6 * 0.2 + 0.4 * 1.0;
+    const double through = 1.0 - kOpacity;
+    const double back = kOpacity * sheet;
+    const double expected = back + through * through * plane / (1.0 - plane * back);
+    for (const Estimator estimator : kEstimators) {
+        INFO(estimator);
+        CHECK(shows(scene, estimator, expected, 0.02));
+    }
+}
+
 // The plane sees lamps of partial opacity, by a number and by an image, one behind the other and a point light behind both. S2: seeds 1 and
 // 2, 64 batches; resolves 5 %.
 TEST_CASE("Partly opaque lamps are the same with light samples and without") {

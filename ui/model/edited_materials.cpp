@@ -55,7 +55,7 @@ bool EditedMaterials::are_edits_named() const {
 }
 
 void EditedMaterials::set(std::uint32_t index, const MaterialDescription& material) {
-    validate_material(material, *file_);
+    validate_material(material, index, *file_);
     now_[index] = material;
 }
 

@@ -113,6 +113,7 @@ void draw_textures(const TextureUse& use, const SceneDescription& scene) {
     row("Light map", use.emission);
     row("Opacity map", use.opacity);
     row("Normal map", use.normal);
+    row("Blend map", use.blend);
 }
 
 void draw_restore(ViewerModel& model, std::uint32_t index) {
@@ -138,6 +139,9 @@ void draw_material_tab(ViewerModel& model) {
     changed |= draw_reflection(material, file);
     changed |= draw_emission(material, file);
     changed |= draw_opacity(material, file);
+    if (material.blend.is_any())
+        changed |= slider_row("Blend", "Share of the material that this one blends with.", &material.blend.share,
+                              {0.0f, 1.0f, file.blend.share, "%.3f"});
     draw_textures(material.textures, *model.scene().materials().file());
     if (changed) model.scene().set_material(index, material);
     draw_restore(model, index);

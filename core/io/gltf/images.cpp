@@ -26,6 +26,8 @@ std::uint32_t GltfImages::color(const std::string& info, float alpha_scale) {
 
 std::uint32_t GltfImages::roughness(const std::string& info) { return add(info, Use::Roughness, 1.0f); }
 
+std::uint32_t GltfImages::metalness(const std::string& info) { return add(info, Use::Metalness, 1.0f); }
+
 std::uint32_t GltfImages::normals(const std::string& info) { return add(info, Use::Normals, 1.0f); }
 
 std::uint32_t GltfImages::roughness_of_gloss(const std::string& info, float factor) {
@@ -46,6 +48,7 @@ TextureContent GltfImages::content_of(Use use) {
     case Use::Color: return TextureContent::Color;
     case Use::Normals: return TextureContent::Normal;
     case Use::Roughness:
+    case Use::Metalness:
     case Use::Gloss: break;
     }
     return TextureContent::Number;
@@ -89,6 +92,7 @@ std::uint32_t GltfImages::make(const Source& source, Use use, float factor) {
         switch (use) {
         case Use::Color: texel.w = std::min(texel.w * factor, 1.0f); break;
         case Use::Roughness: texel.x = texel.y; break;
+        case Use::Metalness: texel.x = texel.z; break;
         case Use::Gloss: texel.x = 1.0f - factor * texel.w; break;
         case Use::Normals: break;
         }

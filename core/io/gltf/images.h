@@ -21,13 +21,15 @@ public:
     std::uint32_t color(const std::string& info, float alpha_scale = 1.0f);
     /// Numbers; the first channel is that of roughness, the third that of metalness.
     std::uint32_t roughness(const std::string& info);
+    /// The same image with metalness in the first channel.
+    std::uint32_t metalness(const std::string& info);
     /// Normals.
     std::uint32_t normals(const std::string& info);
     /// Glossiness from the alpha channel, as roughness.
     std::uint32_t roughness_of_gloss(const std::string& info, float factor);
 
 private:
-    enum class Use { Color, Roughness, Gloss, Normals };
+    enum class Use { Color, Roughness, Metalness, Gloss, Normals };
     using Key = std::tuple<std::uint32_t, Use, float, bool>;
 
     struct Source {

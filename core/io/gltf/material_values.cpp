@@ -24,6 +24,21 @@ glm::vec4 clamped_shares(GltfFile& file, const std::string& pointer, std::size_t
     return inside;
 }
 
+Metalness metalness_of(const SceneDescription& scene, std::uint32_t texture, float factor) {
+    if (texture == kNoTexture) return {factor, factor, factor};
+    Metalness metalness{.least = 1.0f};
+    double sum = 0.0;
+    const std::vector<glm::vec4>& texels = scene.textures[texture].texels;
+    for (const glm::vec4& texel : texels) {
+        const float value = factor * texel.z;
+        metalness.least = std::min(metalness.least, value);
+        metalness.most = std::max(metalness.most, value);
+        sum += static_cast<double>(value);
+    }
+    metalness.mean = static_cast<float>(sum / static_cast<double>(texels.size()));
+    return metalness;
+}
+
 glm::vec3 color_or(const JsonDocument& document, const std::string& pointer, const glm::vec3& standard) {
     const auto given = document.numbers(pointer, 3);
     return given ? glm::vec3((*given)[0], (*given)[1], (*given)[2]) : standard;

@@ -52,6 +52,8 @@ public:
             read_specular_gloss();
         else
             read_metal_rough();
+        roughness_ = material_.roughness;
+        roughness_image_ = material_.textures.roughness;
         read_specular();
         read_transmission();
         read_clearcoat();
@@ -97,11 +99,11 @@ private:
         base_at_ = pbr_ + "/baseColorTexture";
         read_base(pbr_ + "/baseColorFactor");
         material_.roughness = share(pbr_ + "/roughnessFactor", 1.0f);
-        surface_.metalness = share(pbr_ + "/metallicFactor", 1.0f);
         placed(base_at_);
         const std::string image = placed(pbr_ + "/metallicRoughnessTexture");
         material_.textures.roughness = images_.roughness(image);
-        surface_.metalness_image = material_.textures.roughness;
+        metal_factor_ = share(pbr_ + "/metallicFactor", 1.0f);
+        metalness_ = metalness_of(scene_, material_.textures.roughness, metal_factor_);
         material_.ior = number(extension("ior") + "/ior", 1.5f, 0.0f, kMostIor);
         if (material_.ior < kLeastIor)
             material_.ior = material_.ior == 0.0f ? kMostIor : kLeastIor;  // 0: reflects everything
@@ -117,7 +119,8 @@ private:
         material_.textures.roughness = images_.roughness_of_gloss(image, gloss);
         material_.roughness = material_.textures.roughness == kNoTexture ? 1.0f - gloss : 1.0f;
         const bool is_metal = !json_.has(image) && strongest(specular) > std::max(kGltfHalf, strongest(base_));
-        surface_.metalness = is_metal ? 1.0f : 0.0f;
+        metal_factor_ = is_metal ? 1.0f : 0.0f;
+        metalness_ = metalness_of(scene_, kNoTexture, metal_factor_);
         if (is_metal) base_ = specular;
         note("specular and glossiness are shown as the nearer of metal and plastic");
     }
@@ -137,8 +140,11 @@ private:
             if (json_.has(at)) note("transmission below one half is left out");
             return;
         }
-        if (surface_.metalness >= kGltfHalf && surface_.metalness_image == kNoTexture)
-            return;  // metals let nothing through
+        if (metalness_.mean >= kGltfHalf) {  // metals let nothing through
+            if (metalness_.least < 1.0f) note_glass();
+            metalness_ = {1.0f, 1.0f, 1.0f};
+            return;
+        }
         material_.kind = SurfaceKind::Dielectric;
         material_.transmission = base_;
         if (material_.ior < kLeastRoughIor) {
@@ -178,11 +184,10 @@ private:
         const std::string at = extension("clearcoat");
         const float amount = share(at + "/clearcoatFactor", 0.0f);
         if (amount == 0.0f) return;
-        const bool fits = amount >= kGltfHalf && surface_.metalness < kGltfHalf && !is_glass(material_.kind);
-        if (!fits) {
+        const bool fits = amount >= kGltfHalf && metalness_.mean < kGltfHalf && !is_glass(material_.kind);
+        if (!fits || metalness_.most > 0.0f)
             note("a clear coat on metal or glass, or of less than one half, is left out");
-            return;
-        }
+        if (!fits) return;
         material_.kind = SurfaceKind::Plastic;
         material_.specular = glm::vec3(1.0f);
         material_.ior = 1.5f;
@@ -194,7 +199,7 @@ private:
     void read_unlit() {
         if (json_.has(extension("unlit"))) {
             material_.kind = SurfaceKind::Diffuse;
-            surface_.metalness = 0.0f;
+            metalness_ = {};
             note("unlit surfaces are shown as diffuse ones");
         }
     }
@@ -246,43 +251,41 @@ private:
             if (json_.has(at_ + pointer)) file_.note(words, at_ + pointer);
     }
 
-    /// Adds the material to the scene: as a metal, as none, or as both.
+    void note_glass() { note("blends with glass are shown as the component of the larger share"); }
+
+    /// Adds the material to the scene: as a metal, as none, or as a blend of both. [glTF 2.0, appendix B.3]
     void add(std::string name) {
         material_.name = std::move(name);
-        if (material_.roughness < kLeastRoughness) material_.roughness = 0.0f;
-        const auto [least, most] = range_of_metalness();
-        if (is_glass(material_.kind) || most < kGltfHalf) {
-            surface_.material = surface_.metal = append(without_metal());
-        } else if (least >= kGltfHalf) {
-            surface_.material = surface_.metal = append(as_metal());
+        const bool is_solid_glass = has_inside(material_.kind);
+        if (is_solid_glass && metalness_.most > 0.0f) note_glass();
+        if (is_solid_glass || metalness_.most == 0.0f) {
+            surface_.material = append(without_metal());
+        } else if (metalness_.least == 1.0f) {
+            surface_.material = append(as_metal());
         } else {
             surface_.material = append(without_metal());
-            MaterialDescription metal = as_metal();
-            metal.name += " (metal)";
-            surface_.metal = append(std::move(metal));
-            note("metalness that varies decides triangle by triangle");
+            const std::uint32_t metal = append(part_of_blend(as_metal()));
+            const bool varies = metalness_.least < metalness_.most;
+            MaterialDescription& base = scene_.materials[surface_.material];
+            base.blend = {.other = metal, .share = varies ? metal_factor_ : metalness_.mean};
+            if (varies) base.textures.blend = images_.metalness(pbr_ + "/metallicRoughnessTexture");
         }
-        if (surface_.material == surface_.metal) surface_.metalness_image = kNoTexture;
     }
 
     std::uint32_t append(MaterialDescription material) {
+        if (material.roughness < kLeastRoughness) material.roughness = 0.0f;
         scene_.materials.push_back(std::move(material));
         return static_cast<std::uint32_t>(scene_.materials.size() - 1);
     }
 
-    std::pair<float, float> range_of_metalness() {
-        std::pair<float, float> range{surface_.metalness, surface_.metalness};
-        if (surface_.metalness_image != kNoTexture && surface_.metalness > 0.0f) {
-            range = {1.0f, 0.0f};
-            for (const glm::vec4& texel : scene_.textures[surface_.metalness_image].texels) {
-                range.first = std::min(range.first, surface_.metalness * texel.z);
-                range.second = std::max(range.second, surface_.metalness * texel.z);
-            }
-        }
-        constexpr float kPure = 0.1f;
-        if (range.first == range.second && std::min(range.first, 1.0f - range.first) > kPure)
-            note("metalness between 0 and 1 is shown as the nearer of them");
-        return range;
+    /// A blend takes reflection alone from the other material.
+    static MaterialDescription part_of_blend(MaterialDescription material) {
+        material.name += " (metal)";
+        material.emission = glm::vec3(0.0f);
+        material.opacity = 1.0f;
+        material.opacity_rule = OpacityRule::Threshold;
+        material.textures.emission = material.textures.opacity = material.textures.normal = kNoTexture;
+        return material;
     }
 
     MaterialDescription without_metal() const {
@@ -302,6 +305,8 @@ private:
         MaterialDescription material = material_;
         material.kind = SurfaceKind::Conductor;
         material.specular = base_;
+        material.roughness = roughness_;
+        material.textures.roughness = roughness_image_;
         return material;
     }
 
@@ -313,6 +318,10 @@ private:
     std::string base_at_;  ///< textureInfo of the base color
     MaterialDescription material_;
     GltfSurface surface_;
+    Metalness metalness_;
+    float metal_factor_ = 1.0f;
+    float roughness_ = 1.0f;                      ///< of the metal; glass and coats may have another one
+    std::uint32_t roughness_image_ = kNoTexture;  ///< likewise
     glm::vec3 base_{1.0f};
     float alpha_ = 1.0f;
     bool has_uv_ = false;

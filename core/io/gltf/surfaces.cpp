@@ -1,7 +1,5 @@
 #include "core/io/gltf/surfaces.h"
 
-#include <algorithm>
-#include <cmath>
 #include <set>
 
 #include <fmt/format.h>
@@ -22,18 +20,6 @@ bool needs_standard(const GltfFile& file) {
 }
 
 }  // namespace
-
-std::uint32_t GltfSurface::material_at(const SceneDescription& scene, glm::vec2 middle) const {
-    if (metalness_image == kNoTexture || !std::isfinite(middle.x) || !std::isfinite(middle.y)) return material;
-    const TextureDescription& image = scene.textures[metalness_image];
-    const auto texel = [&](float coordinate, std::uint32_t size) {
-        const float inside = image.repeats ? coordinate - std::floor(coordinate) : std::clamp(coordinate, 0.0f, 1.0f);
-        return std::min(static_cast<std::uint32_t>(inside * static_cast<float>(size)), size - 1);
-    };
-    const std::size_t row = texel(1.0f - middle.y, image.height);
-    const float value = metalness * image.texels[row * image.width + texel(middle.x, image.width)].z;
-    return value >= kGltfHalf ? metal : material;
-}
 
 std::vector<GltfSurface> read_surfaces(GltfFile& file, SceneDescription& scene) {
     GltfImages images(file, scene);

@@ -136,12 +136,7 @@ private:
                 continue;
             }
             if (!primitive.normals.empty()) set_normals(primitive, first_normal_ + of, triangle);
-            if (!primitive.uvs.empty()) {
-                triangle.uv = first_uv_ + of;
-                const glm::vec2 sum =
-                    scene_.uvs[triangle.uv.x] + scene_.uvs[triangle.uv.y] + scene_.uvs[triangle.uv.z];
-                triangle.material = surface.material_at(scene_, sum / 3.0f);
-            }
+            if (!primitive.uvs.empty()) triangle.uv = first_uv_ + of;
             add(triangle);
         }
     }

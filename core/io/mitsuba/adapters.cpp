@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <string_view>
-#include <utility>
 
 #include <fmt/format.h>
 
@@ -15,8 +14,8 @@ namespace pl {
 namespace {
 
 bool is_adapter(const std::string& type) {
-    constexpr std::array<std::string_view, 7> kAdapters = {"twosided", "mask",      "bumpmap",     "normalmap",
-                                                           "coating",  "blendbsdf", "roughcoating"};
+    constexpr std::array<std::string_view, 6> kAdapters = {"twosided",  "mask",    "bumpmap",
+                                                           "normalmap", "coating", "roughcoating"};
     return std::find(kAdapters.begin(), kAdapters.end(), type) != kAdapters.end();
 }
 
@@ -66,18 +65,15 @@ void read_adapter(const MitsubaFile& file, const MitsubaObject& adapter, SceneDe
         read_mask(file, adapter, scene, adapters);
     else if (type == "normalmap" || type == "bumpmap")
         read_normals(file, adapter, scene, adapters);
-    else if (type == "blendbsdf")
-        adapter.note("of two surfaces that are blended the heavier one is shown");
     else if (type != "twosided")
         adapter.note(fmt::format("the effect of {} is left out: the surface inside of it is shown", in_quotes(type)));
 }
 
-/// The surface inside of an adapter: of two the heavier one.
+/// The surface inside of an adapter.
 MitsubaObject inside_of(const MitsubaFile& file, const MitsubaObject& adapter) {
-    bool takes_second = adapter.type() == "blendbsdf" && adapter.number("weight").value_or(0.5f) > 0.5f;
     for (const MitsubaObject& child : adapter.children()) {
         const MitsubaObject target = mitsuba_target(file, child);
-        if (target.element() == "bsdf" && !std::exchange(takes_second, false)) return target;
+        if (target.element() == "bsdf") return target;
     }
     return {};
 }

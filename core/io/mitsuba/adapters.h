@@ -18,8 +18,8 @@ struct MitsubaAdapters {
     std::uint32_t opacities = kNoTexture;  ///< likewise, multiplies it
 };
 
-/// Adapters without an effect here are noted, and the surface inside of them is taken: of `blendbsdf` the heavier one. Throws
-/// Error(Input) if there is none. [Mitsuba 3 and 0.6, plugins]
+/// Adapters without an effect here are noted, and the surface inside of them is taken. Throws Error(Input) if there is none.
+/// [Mitsuba 3 and 0.6, plugins]
 MitsubaAdapters read_mitsuba_adapters(const MitsubaFile& file, const MitsubaObject& bsdf, SceneDescription& scene);
 
 }  // namespace pl

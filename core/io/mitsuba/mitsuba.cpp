@@ -141,9 +141,23 @@ private:
         if (std::any_of(scene_.materials.begin(), scene_.materials.end(),
                         [&](const MaterialDescription& other) { return other.name == material.name; }))
             material.name += fmt::format(" ({})", scene_.materials.size());
+        const auto first = static_cast<std::uint32_t>(scene_.materials.size());
         scene_.materials.push_back(material);
         surfaces_.push_back(read);
-        return {static_cast<std::uint32_t>(scene_.materials.size() - 1), read.shows_vertex_colors};
+        add_parts(first, read.others);
+        return {first, read.shows_vertex_colors};
+    }
+
+    /// The materials that the last one blends with.
+    void add_parts(std::uint32_t first, const std::vector<MaterialDescription>& others) {
+        for (const MaterialDescription& other : others) {
+            const auto number = static_cast<std::uint32_t>(scene_.materials.size());
+            scene_.materials.back().blend.other = number;
+            scene_.materials.push_back(other);
+            scene_.materials.back().name =
+                fmt::format("{} (part {})", scene_.materials[first].name, number - first + 1);
+            surfaces_.emplace_back();
+        }
     }
 
     /// Transformations of images, and reliefs, by the triangles that they are on.

@@ -10,6 +10,7 @@
 
 #include "core/io/line_reader.h"
 #include "core/io/mitsuba/adapters.h"
+#include "core/io/mitsuba/blends.h"
 #include "core/io/mtl_surface.h"
 #include "core/kernel/shading/fresnel.h"
 
@@ -79,7 +80,10 @@ public:
             material_.albedo = glm::vec3(0.5f);
         }
         if (is_rough) read_roughness();
-        return {.material = material_, .image = image_, .shows_vertex_colors = shows_vertex_colors_};
+        return {.material = material_,
+                .others = std::move(others_),
+                .image = image_,
+                .shows_vertex_colors = shows_vertex_colors_};
     }
 
 private:
@@ -178,10 +182,10 @@ private:
         color("base_color", base, 0.5f);
         const float roughness = std::clamp(bsdf_.number("roughness").value_or(0.5f), 0.0f, 1.0f);
         material_.roughness = roughness < kLeastRoughness ? 0.0f : roughness;
-        if (bsdf_.number("metallic").value_or(0.0f) >= 0.5f) {
-            material_.kind = SurfaceKind::Conductor;
-            material_.specular = base;
-        } else if (bsdf_.number("spec_trans").value_or(0.0f) >= 0.5f) {
+        MaterialDescription metal = material_;
+        metal.kind = SurfaceKind::Conductor;
+        metal.specular = base;
+        if (bsdf_.number("spec_trans").value_or(0.0f) >= 0.5f) {
             material_.kind = SurfaceKind::Dielectric;
             material_.transmission = base;
             material_.textures.albedo = kNoTexture;
@@ -189,7 +193,12 @@ private:
             material_.kind = SurfaceKind::Plastic;
             material_.albedo = base;
         }
-        bsdf_.note("principled surfaces are shown as the nearest of metal, glass and plastic");
+        const MitsubaWeight metallic = mitsuba_weight(file_, bsdf_, "metallic", 0.0f, scene_);
+        others_ = blended_parts(bsdf_, {material_}, {metal}, metallic, scene_);
+        material_ = others_.front();
+        others_.erase(others_.begin());
+        if (!image_) image_ = metallic.texture;
+        bsdf_.note("principled surfaces are shown as metal, plastic, a blend of the two, or glass");
     }
 
     void read_roughness() {
@@ -210,6 +219,7 @@ private:
     const MitsubaObject& bsdf_;
     SceneDescription& scene_;
     MaterialDescription material_;
+    std::vector<MaterialDescription> others_;
     MitsubaObject image_;
     bool shows_vertex_colors_ = false;
 };
@@ -224,21 +234,30 @@ MitsubaObject mitsuba_target(const MitsubaFile& file, const MitsubaObject& objec
     return target;
 }
 
-MitsubaSurface mitsuba_surface(const MitsubaFile& file, const MitsubaObject& bsdf, SceneDescription& scene) {
+void share_mitsuba_uv(const MitsubaObject& image, MitsubaSurface& surface) {
+    if (surface.image && image && mitsuba_to_uv(surface.image) != mitsuba_to_uv(image))
+        image.note("images of one surface with transformations of their own share that of its color");
+    if (!surface.image) surface.image = image;
+}
+
+MitsubaSurface mitsuba_surface(const MitsubaFile& file, const MitsubaObject& bsdf, SceneDescription& scene,
+                               int depth) {
     const MitsubaAdapters adapters = read_mitsuba_adapters(file, bsdf, scene);
-    MitsubaSurface surface = SurfaceReader(file, adapters.inside, scene).run();
+    MitsubaSurface surface = mitsuba_name(adapters.inside.type()) == "blendbsdf"
+                                 ? mitsuba_blend(file, adapters.inside, scene, depth)
+                                 : SurfaceReader(file, adapters.inside, scene).run();
     MaterialDescription& material = surface.material;
-    material.textures.normal = adapters.normals;
-    if (adapters.normals != kNoTexture) material.normal_green = NormalGreen::Left;
+    if (adapters.normals != kNoTexture) {
+        material.textures.normal = adapters.normals;
+        material.normal_green = NormalGreen::Left;
+    }
     if (adapters.has_mask) {
         material.opacity = adapters.opacity;
         material.opacity_rule = OpacityRule::Blend;
         material.textures.opacity = adapters.opacities;
     }
-    surface.relief = adapters.relief;
-    if (surface.image && adapters.image && mitsuba_to_uv(surface.image) != mitsuba_to_uv(adapters.image))
-        adapters.image.note("images of one surface with transformations of their own share that of its color");
-    if (!surface.image) surface.image = adapters.image;
+    if (adapters.relief) surface.relief = adapters.relief;
+    share_mitsuba_uv(adapters.image, surface);
     return surface;
 }
 

@@ -106,6 +106,19 @@ std::uint32_t mitsuba_opacities(const MitsubaObject& bitmap, SceneDescription& s
     return image;
 }
 
+std::uint32_t mitsuba_shares(const MitsubaObject& texture, SceneDescription& scene) {
+    std::uint32_t image = kNoTexture;
+    if (texture.type() == "bitmap") {
+        image = add_luminance(texture, TextureContent::Number, &glm::vec4::x, scene);
+    } else if (texture.type() == "checkerboard") {
+        image = *mitsuba_image(texture, TextureContent::Number, scene);
+        for (glm::vec4& texel : scene.textures[image].texels) texel.x = luminance(Vec3f(texel));
+    }
+    if (image != kNoTexture)
+        for (glm::vec4& texel : scene.textures[image].texels) texel.x = std::min(texel.x, 1.0f);
+    return image;
+}
+
 glm::dmat4 mitsuba_to_uv(const MitsubaObject& texture) {
     const auto number = [&](const char* name, float standard) {
         return static_cast<double>(texture.number(name).value_or(standard));

@@ -19,6 +19,9 @@ inline constexpr std::uint32_t kCheckerTexels = 128;
 /// Index of an image of opacities, the luminance of a bitmap, added to the scene; or kNoTexture. [Mitsuba 3, mask]
 std::uint32_t mitsuba_opacities(const MitsubaObject& bitmap, SceneDescription& scene);
 
+/// Index of an image of shares, the luminance of a bitmap or checkerboard, added to the scene; or kNoTexture. [Mitsuba 3, blendbsdf]
+std::uint32_t mitsuba_shares(const MitsubaObject& texture, SceneDescription& scene);
+
 /// The transformation of texture coordinates of a `texture` element: `to_uv`, or the scales and offsets of 0.6.
 glm::dmat4 mitsuba_to_uv(const MitsubaObject& texture);
 

@@ -24,13 +24,15 @@ enum class Feature : std::uint32_t {
     DeltaLights = 1u << 12,         ///< lights without extent: points, spots, directions
     Absorption = 1u << 13,          ///< glass that absorbs light along the way through it
     ThinPanes = 1u << 14,           ///< thin sheets of clear glass
+    Blends = 1u << 15,              ///< surfaces of two materials, chosen at random by their shares
 };
 
 inline constexpr Feature kAllFeatures[] = {Feature::SmoothNormals, Feature::Environment, Feature::NextEventEstimation,
                                            Feature::Specular,      Feature::Rough,       Feature::Plastic,
                                            Feature::Textures,      Feature::CutOuts,     Feature::EnvironmentMap,
                                            Feature::ThinLens,      Feature::ManyLights,  Feature::NormalMaps,
-                                           Feature::DeltaLights,   Feature::Absorption,  Feature::ThinPanes};
+                                           Feature::DeltaLights,   Feature::Absorption,  Feature::ThinPanes,
+                                           Feature::Blends};
 
 /// A set of features; usable as a template argument.
 struct FeatureSet {

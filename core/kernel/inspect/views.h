@@ -60,6 +60,12 @@ struct FirstSurface {
     float distance = 0.0f;
 };
 
+/// Albedo of the diffuse, or guided, lobe.
+template <FeatureSet F>
+PL_HD inline Vec3f shown_albedo(const SceneView& scene, const FirstSurface& surface) {
+    return albedo_at<F>(scene, shown_material<F>(scene, surface.point, surface.weights, surface.wo));
+}
+
 /// Whitted-style ray tracing without recursion: emission plus one light sample.
 template <FeatureSet F, Intersector I>
 PL_HD inline Vec3f direct_radiance(const SceneView& scene, const I& intersector, const FirstSurface& surface,
@@ -120,10 +126,9 @@ PL_HD inline Vec3f surface_view(const ViewContext& context, const SceneView& sce
     case View::Direct: return direct_radiance<F>(scene, intersector, surface, rng);
     case View::RadianceMap:
         return emitted_at<F>(scene, surface.point, surface.weights) +
-               albedo_at<F>(scene, surface.point, surface.weights) *
-                   interpolated_mean_radiance(context.shown, surface.point);
+               shown_albedo<F>(scene, surface) * interpolated_mean_radiance(context.shown, surface.point);
     case View::Normal: return 0.5f * (surface.point.shading_normal + Vec3f{1.0f});
-    case View::Albedo: return albedo_at<F>(scene, surface.point, surface.weights);
+    case View::Albedo: return shown_albedo<F>(scene, surface);
     case View::Depth: return Vec3f{surface.distance};
     case View::Voronoi:
     case View::Visits:

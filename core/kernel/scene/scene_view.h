@@ -53,6 +53,7 @@ struct SceneView {
     Span<const Vec3f> absorption;  ///< [material], per length, of the inside of glass; empty if nothing absorbs
     Textures textures;
     Span<const MaterialOpacity> opacities;  ///< [material]; empty if all are opaque
+    Span<const MaterialBlend> blends;       ///< [material]; empty if none blends
     Span<const Light> lights;               ///< sorted by primitive
     LightTree light_tree;                   ///< over `lights`; empty if they are few
     BvhView bvh;

@@ -42,6 +42,16 @@ struct MaterialOpacity {
         0;  ///< 1: rays meet the surface with this probability; 0: where it is at least kLeastOpacity
 };
 
+/// No other material.
+inline constexpr std::uint32_t kNoBlend = 0xffffffffu;
+
+/// Of a material: another one that takes its place with the probability of its share, which may blend itself; see blends.h.
+struct MaterialBlend {
+    std::uint32_t other = kNoBlend;  ///< index into SceneView::materials, or kNoBlend
+    float share = 0.0f;              ///< of the other one, in [0, 1]
+    std::uint32_t image = kNoImage;  ///< index into Textures::images: red multiplies the share; or kNoImage
+};
+
 /// Of a material: an image of normals, see normal_map.h.
 struct NormalMap {
     std::uint32_t image = kNoImage;  ///< index into Textures::images, or kNoImage

@@ -192,12 +192,14 @@ private:
 template <FeatureSet F>
 using Bsdf = std::conditional_t<F.has_any(kLobeFeatures), LayeredBsdf, LambertBsdf>;
 
-/// The BSDF of a surface point for wo. `b`: its barycentric weights.
+/// The BSDF of a surface point for wo: of a blend, that of the chosen material, with the normal of the surface's own. `b`: its
+/// barycentric weights.
 template <FeatureSet F>
 PL_HD inline Bsdf<F> make_bsdf(const SceneView& scene, const SurfacePoint& surface, Vec3f b, Vec3f wo) {
-    const Vec3f albedo = albedo_at<F>(scene, surface, b);
+    const MaterialPoint shown = shown_material<F>(scene, surface, b, wo);
+    const Vec3f albedo = albedo_at<F>(scene, shown);
     if constexpr (F.has_any(kLobeFeatures)) {
-        const SurfaceLobes lobes = scene.lobes.empty() ? SurfaceLobes{} : lobes_at<F>(scene, surface, b);
+        const SurfaceLobes lobes = scene.lobes.empty() ? SurfaceLobes{} : lobes_at<F>(scene, shown);
         if constexpr (F.has(Feature::NormalMaps)) {
             if (has_normal_map(scene.textures, surface.material)) {
                 SurfacePoint bent = surface;

@@ -3,11 +3,22 @@
 
 #include "core/kernel/base/features.h"
 #include "core/kernel/scene/surface_point.h"
+#include "core/kernel/shading/blends.h"
 
 namespace pl {
 
 /// Lower bound on textured roughness: at 0 the lobe would become a delta lobe.
 inline constexpr float kLeastTexturedRoughness = 0.03f;
+
+/// The material that a surface shows towards wo, at barycentric weights `b`: its own unless it blends.
+template <FeatureSet F>
+PL_HD inline MaterialPoint shown_material(const SceneView& scene, const SurfacePoint& surface, Vec3f b, Vec3f wo) {
+    MaterialPoint point{surface.material, surface.primitive, b};
+    if constexpr (F.has(Feature::Blends)) {
+        if (!scene.blends.empty()) point.material = blended_material(scene, point, wo);
+    }
+    return point;
+}
 
 PL_HD inline Vec3f color_of(Vec4f texel) { return {texel.x, texel.y, texel.z}; }
 
@@ -20,39 +31,40 @@ PL_HD inline Vec3f vertex_color_at(const SceneView& scene, std::uint32_t primiti
 
 /// Value of the albedo texture times the colors of the vertices, at most 1 per channel; white without either.
 template <FeatureSet F>
-PL_HD inline Vec3f tint_at(const SceneView& scene, const SurfacePoint& surface, Vec3f b) {
+PL_HD inline Vec3f tint_at(const SceneView& scene, const MaterialPoint& point) {
     Vec3f tint{1.0f};
     if constexpr (F.has(Feature::Textures)) {
         if (!scene.textures.of_material.empty()) {
-            const std::uint32_t image = scene.textures.of_material[surface.material].albedo;
+            const std::uint32_t image = scene.textures.of_material[point.material].albedo;
             if (image != kNoImage) {
-                const Vec2f uv = uv_at(scene.textures, surface.primitive, b);
+                const Vec2f uv = uv_at(scene.textures, point.primitive, point.b);
                 tint = glm::min(color_of(sample_image(scene.textures, image, uv)), Vec3f{1.0f});
             }
         }
-        if (!scene.vertex_colors.empty()) tint *= glm::min(vertex_color_at(scene, surface.primitive, b), Vec3f{1.0f});
+        if (!scene.vertex_colors.empty())
+            tint *= glm::min(vertex_color_at(scene, point.primitive, point.b), Vec3f{1.0f});
     }
     return tint;
 }
 
 /// Albedo of the diffuse, or guided, lobe.
 template <FeatureSet F>
-PL_HD inline Vec3f albedo_at(const SceneView& scene, const SurfacePoint& surface, Vec3f b) {
-    const Vec3f albedo = scene.materials[surface.material].albedo;
-    if constexpr (F.has(Feature::Textures)) return albedo * tint_at<F>(scene, surface, b);
+PL_HD inline Vec3f albedo_at(const SceneView& scene, const MaterialPoint& point) {
+    const Vec3f albedo = scene.materials[point.material].albedo;
+    if constexpr (F.has(Feature::Textures)) return albedo * tint_at<F>(scene, point);
     return albedo;
 }
 
 /// Parameters of the other lobes. SceneView::lobes must not be empty.
 template <FeatureSet F>
-PL_HD inline SurfaceLobes lobes_at(const SceneView& scene, const SurfacePoint& surface, Vec3f b) {
-    SurfaceLobes lobes = scene.lobes[surface.material];
+PL_HD inline SurfaceLobes lobes_at(const SceneView& scene, const MaterialPoint& point) {
+    SurfaceLobes lobes = scene.lobes[point.material];
     if constexpr (F.has(Feature::Textures)) {
-        if (lobes.kind == SurfaceKind::Conductor) lobes.specular *= tint_at<F>(scene, surface, b);
+        if (lobes.kind == SurfaceKind::Conductor) lobes.specular *= tint_at<F>(scene, point);
         if (!scene.textures.of_material.empty()) {
-            const std::uint32_t image = scene.textures.of_material[surface.material].roughness;
+            const std::uint32_t image = scene.textures.of_material[point.material].roughness;
             if (image != kNoImage) {
-                const Vec2f uv = uv_at(scene.textures, surface.primitive, b);
+                const Vec2f uv = uv_at(scene.textures, point.primitive, point.b);
                 const float share = sample_image(scene.textures, image, uv).x;
                 lobes.roughness = clamp_to(lobes.roughness * share, kLeastTexturedRoughness, 1.0f);
             }

@@ -151,7 +151,7 @@ TEST_CASE("Record path: the parts of a path explain it at all kinds of surfaces 
 TEST_CASE(
     "Record path: the parts of a path explain it in glass that absorbs, behind panes, and by lights without extent") {
     for (const SceneDescription& scene :
-         {cornell_with_delta_lights(), cornell_with_stained_glass(), cornell_with_panes()}) {
+         {cornell_with_delta_lights(), cornell_with_stained_glass(), cornell_with_panes(), cornell_with_blends()}) {
         for (const Estimator& estimator : kEstimators) {
             INFO(scene.name << ", " << estimator);
             Session recorded = make_session(scene, small_settings(scene, estimator));

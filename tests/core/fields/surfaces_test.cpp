@@ -55,6 +55,17 @@ TEST_CASE("Surfaces are joined at equal corners written twice and end where noth
     CHECK(surfaces.list[0].area == 1.5);
 }
 
+TEST_CASE("A surface that blends reflects if a material of the chain does") {
+    SceneDescription scene;
+    scene.materials = {gray(0.0f), gray(0.0f), gray(0.5f)};
+    add_triangle(scene, Vec3f{0, 0, 0}, Vec3f{1, 0, 0}, Vec3f{0, 1, 0});
+    CHECK(find_surfaces(pack_scene(scene)).list.empty());
+    scene.materials[0].blend = {.other = 1};
+    CHECK(find_surfaces(pack_scene(scene)).list.empty());
+    scene.materials[1].blend = {.other = 2};
+    CHECK(find_surfaces(pack_scene(scene)).list.size() == 1);
+}
+
 TEST_CASE("Any volume of a surface may serve any of its points") {
     SceneDescription description;
     description.materials.push_back(gray());

@@ -163,6 +163,27 @@ TEST_CASE("write_scene: vertices keep the bits of their colors, and an image wit
     CHECK_THAT(input_error([&] { load_scene(with("bright.pfm"), ""); }), contains("is not within [0, 1] (3 such)"));
 }
 
+TEST_CASE("write_scene: blends keep the material, the share and the image, and change the hash") {
+    SceneDescription scene = triangle_of({.name = "paint", .albedo = glm::vec3(0.8f)});
+    scene.materials.push_back({.name = "paint", .kind = SurfaceKind::Conductor});
+    scene.materials.push_back({.name = "rust", .albedo = {0.4f, 0.1f, 0.0f}});
+    scene.materials[0].blend = {.other = 1, .share = 0.3f};
+    scene.materials[0].textures.blend = 0;
+    scene.materials[1].blend = {.other = 2, .share = 1.0f};
+    scene.textures = {texture_of({{128.0f / 255.0f, 0, 0, 1}, {1, 1, 1, 1}}, TextureContent::Number, false)};
+    const SceneDescription read = rewritten(scene);
+    REQUIRE(read.materials.size() == 3);
+    for (std::size_t i = 0; i < 3; ++i) CHECK(read.materials[i].blend == scene.materials[i].blend);
+    REQUIRE(read.materials[0].textures.blend == 0);
+    CHECK(read.textures[0].texels[0].x == scene.textures[0].texels[0].x);
+    CHECK_FALSE(read.textures[0].repeats);
+    const std::string hash = scene_hash(read);
+    scene.materials[1].blend.share = 0.5f;
+    CHECK(scene_hash(scene) != hash);
+    scene.materials[1].blend = {};
+    CHECK(scene_hash(scene) != hash);
+}
+
 TEST_CASE("write_scene: opacities keep their number, image and rule") {
     for (const OpacityRule rule : {OpacityRule::Threshold, OpacityRule::Blend}) {
         MaterialDescription material{.name = "m", .albedo = glm::vec3(0.8f)};

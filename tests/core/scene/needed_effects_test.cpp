@@ -33,6 +33,10 @@ SceneDescription random_scene(Uniforms& random) {
         material.opacity = 0.9f;
         material.opacity_rule = OpacityRule::Blend;
     }
+    if (random.below(4) == 0 && materials == 2) {
+        scene.materials[0].blend = {.other = 1, .share = 0.5f};
+        scene.triangles.front().material = 0;
+    }
     if (random.below(3) == 0) scene.environment = Vec3f{0.5f};
     if (random.below(3) == 0) {
         scene.normals = {Vec3f{0, 1, 0}};
@@ -46,6 +50,7 @@ FeatureSet needed_by_look(const SceneDescription& scene) {
     FeatureSet set;
     for (const MaterialDescription& m : scene.materials) {
         if (m.opacity < 1.0f) set = set.with(Feature::CutOuts);
+        if (m.blend.is_any()) set = set.with(Feature::Blends);
         if (m.kind == SurfaceKind::Diffuse) continue;
         set = set.with(m.roughness > 0.0f ? Feature::Rough : Feature::Specular);
         if (m.kind == SurfaceKind::Plastic) set = set.with(Feature::Plastic);
@@ -73,7 +78,7 @@ TEST_CASE("The scan of a scene finds the effects of all its materials") {
     // All but light samples, images and the lens, which the random scenes have none of.
     CHECK(seen == features(Feature::SmoothNormals, Feature::Environment, Feature::Specular, Feature::Rough,
                            Feature::Plastic, Feature::CutOuts, Feature::EnvironmentMap, Feature::Absorption,
-                           Feature::ThinPanes)
+                           Feature::ThinPanes, Feature::Blends)
                       .bits);
 }
 
@@ -91,6 +96,7 @@ TEST_CASE("Effects that a scene does not need take no memory") {
     CHECK(packed.images.capacity() == 0);
     CHECK(packed.material_images.capacity() == 0);
     CHECK(packed.opacities.capacity() == 0);
+    CHECK(packed.blends.capacity() == 0);
     CHECK(packed.vertex_colors.capacity() == 0);
     CHECK(packed.map_texels.capacity() == 0);
     CHECK(needed_effects(packed) == FeatureSet{});

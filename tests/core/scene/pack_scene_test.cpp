@@ -125,7 +125,7 @@ TEST_CASE("An environment is an effect") {
     CHECK(effect_names(all) == std::vector<std::string>{"smooth-normals", "environment", "next-event-estimation",
                                                         "specular", "rough", "plastic", "textures", "cut-outs",
                                                         "environment-map", "thin-lens", "many-lights", "normal-maps",
-                                                        "delta-lights", "absorption", "thin-panes"});
+                                                        "delta-lights", "absorption", "thin-panes", "blends"});
     CHECK(effect_names(FeatureSet{}).empty());
 }
 
@@ -309,6 +309,30 @@ TEST_CASE("An opacity counts by its rule, with an image and without, and an opaq
         const float least = c.rule == OpacityRule::Blend ? 1.0f : 0.5f;
         CHECK(pack_scene(scene).opacities.empty() == (c.opacity >= least));
     }
+}
+
+TEST_CASE("A blend is packed with the images of both materials, unless no path meets the other one") {
+    SceneDescription scene = textured(&TextureUse::blend, glm::vec4(0.25f), glm::vec4(1.0f));
+    CHECK(pack_scene(scene).images.empty());
+    scene.materials[0].blend = {.other = 2, .share = 0.75f};
+    scene.materials[2].textures = {.albedo = 0, .emission = 0, .opacity = 0, .normal = 0};
+    scene.materials[2].opacity = 0.5f;
+    const HostScene packed = pack_scene(scene);
+    REQUIRE(packed.blends.size() == 3);
+    CHECK(packed.blends[0].other == 2);
+    CHECK(packed.blends[0].share == 0.75f);
+    CHECK(packed.images[packed.blends[0].image].width == 2);
+    CHECK(packed.blends[1].other == kNoBlend);
+    CHECK(packed.images.size() == 2);
+    CHECK(packed.images[packed.material_images[2].albedo].width == 1);
+    CHECK(packed.opacities.empty());
+    CHECK(packed.normal_maps.empty());
+    CHECK(needed_effects(packed) == features(Feature::Textures, Feature::Blends));
+    scene.materials[0].blend.share = 0.0f;
+    CHECK(pack_scene(scene).blends.empty());
+    scene.materials[0].blend.share = 0.75f;
+    scene.triangles[0].material = 1;
+    CHECK(pack_scene(scene).blends.empty());
 }
 
 TEST_CASE("Images that change nothing are not packed") {

@@ -105,6 +105,20 @@ TEST_CASE("Each kind of fault of surfaces, textures, far lights and lenses is na
         Case{[](SceneDescription& s) { s.materials[0].specular.x = 2.0f; }, "specular (2"},
         Case{[](SceneDescription& s) { s.materials[0].transmission.x = kNan; }, "transmission (nan"},
         Case{[](SceneDescription& s) { s.triangles[0].uv.x = 0; }, "texture point 0 is out of range"},
+        Case{[](SceneDescription& s) { s.materials[0].textures.blend = 0; }, "there is no texture 0"},
+        Case{[](SceneDescription& s) { s.materials[0].blend = {.other = 7}; },
+             "materials to blend with, got number 7"},
+        Case{[](SceneDescription& s) { s.materials[0].blend = {.other = 0}; }, "at most 8 blends in a row"},
+        Case{[](SceneDescription& s) {
+                 s.materials.push_back(s.materials[0]);
+                 s.materials[0].blend = {.other = 1, .share = kNan};
+             },
+             "share nan of a blend is not within [0, 1]"},
+        Case{[](SceneDescription& s) {
+                 s.materials.push_back({.name = "ice", .kind = SurfaceKind::Dielectric});
+                 s.materials[0].blend = {.other = static_cast<std::uint32_t>(s.materials.size() - 1)};
+             },
+             "expected no solid glass in a blend, got 'ice'"},
         Case{[](SceneDescription& s) { s.materials[0].textures.albedo = 0; }, "there is no texture 0"},
         Case{[](SceneDescription& s) { s.textures.push_back({.source = "t.png", .width = 1, .height = 2}); },
              "1x2 with 0 texels"},

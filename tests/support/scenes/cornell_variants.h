@@ -58,4 +58,21 @@ inline SceneDescription cornell_with_panes() {
     return scene;
 }
 
+/// The Cornell box with blocks of blended materials: a mirror with paint, and a coat with rough metal and paint.
+inline SceneDescription cornell_with_blends() {
+    SceneDescription scene = shipped_scene("cornell");
+    scene.name = "blends";
+    const auto first = static_cast<std::uint32_t>(scene.materials.size());
+    scene.materials.push_back({.name = "mirror", .kind = SurfaceKind::Conductor, .specular = {0.9f, 0.8f, 0.6f}});
+    scene.materials.back().blend = {.other = first + 1, .share = 0.4f};
+    scene.materials.push_back({.name = "paint", .albedo = {0.2f, 0.5f, 0.7f}});
+    scene.materials.push_back({.name = "coat", .albedo = {0.6f, 0.3f, 0.2f}, .kind = SurfaceKind::Plastic});
+    scene.materials.back().blend = {.other = first + 3, .share = 0.7f};
+    scene.materials.push_back({.name = "rough metal", .kind = SurfaceKind::Conductor, .roughness = 0.6f});
+    scene.materials.back().blend = {.other = first + 1, .share = 0.5f};
+    add_box(scene, Vec3f{60, 350, 250}, Vec3f{200, 450, 400}, false, first);
+    add_box(scene, Vec3f{320, 350, 150}, Vec3f{500, 480, 330}, false, first + 2);
+    return scene;
+}
+
 }  // namespace pl::test

@@ -85,9 +85,16 @@ TEST_CASE("gltf materials: metals and plastics by their metalness") {
     CHECK(plastic.specular == glm::vec3(1.0f));
     CHECK(plastic.ior == 1.5f);
     CHECK(plastic.roughness == 0.0f);
-    const SceneDescription half = load(metal_rough({{"metallicFactor", 0.4}}));
+    const SceneDescription half =
+        load(metal_rough({{"metallicFactor", 0.4}, {"baseColorFactor", {0.9, 0.5, 0.1, 1}}}));
+    REQUIRE(half.materials.size() == 2);
+    CHECK(half.triangles[0].material == 0);
     CHECK(half.materials[0].kind == SurfaceKind::Plastic);
-    CHECK(is_told(half, "metalness between 0 and 1"));
+    CHECK(half.materials[0].albedo == glm::vec3(0.9f, 0.5f, 0.1f));
+    CHECK(half.materials[0].blend == BlendDescription{.other = 1, .share = 0.4f});
+    CHECK(half.materials[1].kind == SurfaceKind::Conductor);
+    CHECK(half.materials[1].specular == glm::vec3(0.9f, 0.5f, 0.1f));
+    CHECK(half.warnings.size() == 1);  // of the light that the scene lacks
     CHECK(surface(Json::object()).kind == SurfaceKind::Conductor);
 }
 
@@ -132,6 +139,14 @@ TEST_CASE("gltf materials: glass by transmission") {
     CHECK(surface(glass).roughness == 0.0f);
     glass["pbrMetallicRoughness"]["metallicFactor"] = 1;
     CHECK(surface(glass).kind == SurfaceKind::Conductor);
+    glass["extensions"]["KHR_materials_ior"]["ior"] = 1.5;
+    for (const double metalness : {0.25, 0.75}) {
+        glass["pbrMetallicRoughness"]["metallicFactor"] = metalness;
+        const SceneDescription pure = load(glass);
+        REQUIRE(pure.materials.size() == 1);
+        CHECK(pure.materials[0].kind == (metalness < 0.5 ? SurfaceKind::Dielectric : SurfaceKind::Conductor));
+        CHECK(is_told(pure, "blends with glass are shown as the component of the larger share"));
+    }
     const SceneDescription weak = load(extended("transmission", {{"transmissionFactor", 0.2}}));
     CHECK(weak.materials[0].kind == SurfaceKind::Plastic);
     CHECK(is_told(weak, "transmission below one half"));
@@ -176,6 +191,12 @@ TEST_CASE("gltf materials: a clear coat on dielectrics") {
     const SceneDescription scene = load(metal);
     CHECK(scene.materials[0].roughness == 1.0f);
     CHECK(is_told(scene, "a clear coat on metal"));
+    metal["pbrMetallicRoughness"] = {{"metallicFactor", 0.25}, {"roughnessFactor", 0.5}};
+    const SceneDescription blend = load(metal);
+    REQUIRE(blend.materials.size() == 2);
+    CHECK(blend.materials[0].roughness == 0.2f);
+    CHECK(blend.materials[1].roughness == 0.5f);
+    CHECK(is_told(blend, "a clear coat on metal"));
 }
 
 TEST_CASE("gltf materials: emission with its strength, on both sides if the surface has two") {
@@ -245,17 +266,21 @@ TEST_CASE("gltf images: colors are decoded, roughness is green, and coordinates 
     CHECK(scene.uvs == std::vector<glm::vec2>{{0, 1}, {1, 1}, {0, 0}});
 }
 
-TEST_CASE("gltf images: metalness that varies decides triangle by triangle") {
-    GltfMaker file =
-        with_image(metal_rough({{"metallicRoughnessTexture", {{"index", 0}}}}), {0, 99, 0, 255, 0, 99, 255, 255});
-    file.root["meshes"][0]["primitives"].push_back(file.root["meshes"][0]["primitives"][0]);
-    file.root["meshes"][0]["primitives"][1]["attributes"]["TEXCOORD_0"] = file.vec2({0.8f, 0, 0.9f, 0, 0.8f, 1});
-    const SceneDescription scene = load(file);
+TEST_CASE("gltf images: metalness that varies blends metal and plastic") {
+    const Json material = metal_rough({{"metallicFactor", 0.5}, {"metallicRoughnessTexture", {{"index", 0}}}});
+    const SceneDescription scene = load(with_image(material, {0, 99, 0, 255, 0, 99, 255, 255}));
     REQUIRE(scene.materials.size() == 2);
-    CHECK(scene.materials[scene.triangles[0].material].kind == SurfaceKind::Plastic);
-    CHECK(scene.materials[scene.triangles[1].material].kind == SurfaceKind::Conductor);
+    CHECK(scene.triangles[0].material == 0);
+    const MaterialDescription& base = scene.materials[0];
+    CHECK(base.kind == SurfaceKind::Plastic);
+    CHECK(base.blend == BlendDescription{.other = 1, .share = 0.5f});
+    const TextureDescription& share = scene.textures[base.textures.blend];
+    CHECK(share.texels[0].x == 0.0f);
+    CHECK(share.texels[1].x == 1.0f);
+    CHECK(scene.materials[1].kind == SurfaceKind::Conductor);
     CHECK(scene.materials[1].name == "material 0 (metal)");
-    CHECK(is_told(scene, "decides triangle by triangle"));
+    CHECK(scene.materials[1].textures.roughness == base.textures.roughness);
+    CHECK(scene.warnings.size() == 1);  // of the light that the scene lacks
     const SceneDescription even = load(
         with_image(metal_rough({{"metallicRoughnessTexture", {{"index", 0}}}}), {0, 99, 255, 255, 0, 99, 255, 255}));
     REQUIRE(even.materials.size() == 1);

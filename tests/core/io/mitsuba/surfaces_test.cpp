@@ -59,12 +59,6 @@ TEST_CASE("mitsuba: surfaces, by reference, inside of adapters, and with the val
         load_mitsuba_text("<shape type=\"rectangle\"><bsdf type=\"coating\"><bsdf type=\"hair\"/></bsdf></shape>");
     CHECK(is_told(odd, "the effect of 'coating' is left out"));
     CHECK(is_told(odd, "surfaces of the type 'hair' are shown as gray"));
-    const auto blended = [](const std::string& weight) {
-        return surface("<bsdf type=\"blendbsdf\">" + weight +
-                       "<bsdf type=\"conductor\"/><bsdf type=\"plastic\"/></bsdf>");
-    };
-    CHECK(blended("<float name=\"weight\" value=\"0.3\"/>").kind == SurfaceKind::Conductor);
-    CHECK(blended("<float name=\"weight\" value=\"0.7\"/>").kind == SurfaceKind::Plastic);
     const SceneDescription plain =
         load_mitsuba_text("<shape type=\"rectangle\"><bsdf type=\"normalmap\"><rgb name=\"normalmap\" "
                           "value=\"1\"/><bsdf type=\"diffuse\"/></bsdf></shape>");

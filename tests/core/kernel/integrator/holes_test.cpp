@@ -6,33 +6,14 @@
 #include "core/scene/pack_scene.h"
 #include "tests/support/catch.hpp"
 #include "tests/support/scenes/shapes.h"
-#include "tests/support/statistics/rules.h"
+#include "tests/support/statistics/pairs.h"
 
 using namespace pl;
 using namespace pl::test;
 
 namespace {
 
-constexpr std::uint32_t kSide = 16;
 constexpr std::uint32_t kRays = 1u << 18;
-
-/// Counts of pairs of numbers in kSide x kSide bins.
-class Pairs {
-public:
-    void add(float x, float y) {
-        ++counts_[static_cast<std::size_t>(x * kSide) * kSide + static_cast<std::size_t>(y * kSide)];
-    }
-    Decision are_uniform() const {
-        std::uint64_t total = 0;
-        for (const std::uint64_t count : counts_) total += count;
-        std::array<double, kSide * kSide> expected{};
-        expected.fill(static_cast<double>(total) / (kSide * kSide));
-        return follows_density(counts_, expected, 0.05);
-    }
-
-private:
-    std::array<std::uint64_t, kSide * kSide> counts_{};
-};
 
 Ray random_ray(Uniforms& random) {
     return {.origin = random.cube(-3, 5), .direction = glm::normalize(random.cube(-1, 1))};
