@@ -13,8 +13,8 @@ void parse_frames(Options& options, const std::string& text) {
 constexpr auto kCameraOptions = std::to_array<OptionSpec>({
     {.name = "camera", .flags = "--camera", .value = "FILE", .group = kCamera,
      .help = "JSON file {\"eye\": [x,y,z], \"target\": [x,y,z], \"up\": [x,y,z], \"fov_deg\": vertical, "
-             "\"aperture_radius\": r, \"focus_distance\": d, \"shift_x\": x, \"shift_y\": y}; overrides the scene's camera, and the options "
-             "below override both",
+             "\"aperture_radius\": r, \"focus_distance\": d, \"shift_x\": x, \"shift_y\": y}; overrides the scene's camera, and the "
+             "options below override both",
      .commands = kPaths, .parse = [](Options& o, Text text) { o.camera = load_camera_file(text); }},
     {.name = "scene-camera", .flags = "--scene-camera", .value = "NAME", .group = kCamera,
      .help = "Camera that the scene's file lists, by its name or its number from 1, see 'info' (default: the first)",

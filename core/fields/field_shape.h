@@ -18,8 +18,8 @@ enum class Representation : std::uint32_t {
 
 inline constexpr Representation kLastRepresentation = Representation::NeuralVertex;
 
-/// Whether tables of radiance volumes keep what is learned: then they are refined, and sampled or the teacher of what is; and both back ends
-/// have kernels for it.
+/// Whether tables of radiance volumes keep what is learned: then they are refined, and sampled or the teacher of what is; and both
+/// back ends have kernels for it.
 constexpr bool has_tables(Representation representation) {
     return representation != Representation::SdTree && representation != Representation::Lobes;
 }

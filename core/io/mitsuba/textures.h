@@ -10,8 +10,8 @@
 
 namespace pl {
 
-/// Index of the image of a `texture` element, added to the scene: a bitmap, or a checkerboard as an image of kCheckerTexels to a side. Empty
-/// for other kinds, and for bitmaps that cannot be read, if they are no colors. [Mitsuba 3, bitmap and checkerboard]
+/// Index of the image of a `texture` element, added to the scene: a bitmap, or a checkerboard as an image of kCheckerTexels to a side.
+/// Empty for other kinds, and for bitmaps that cannot be read, if they are no colors. [Mitsuba 3, bitmap and checkerboard]
 std::optional<std::uint32_t> mitsuba_image(const MitsubaObject& texture, TextureContent content,
                                            SceneDescription& scene);
 inline constexpr std::uint32_t kCheckerTexels = 128;

@@ -1,4 +1,5 @@
-// Mixtures of von Mises-Fisher lobes as kernels read them: the mixture as a point sees it, its product with the cosine, and density.   [Ruppert, Herholz and Lensch 2020, "Robust Fitting of Parallax-Aware Mixtures for Path Guiding"]
+// Mixtures of von Mises-Fisher lobes as kernels read them: the mixture as a point sees it, its product with the cosine, and density.
+// [Ruppert, Herholz and Lensch 2020, "Robust Fitting of Parallax-Aware Mixtures for Path Guiding"]
 #pragma once
 
 #include "core/kernel/guiding/lobe_arrays.h"
