@@ -84,6 +84,16 @@ def in_room(tall, short):
                  box(short, (0.35, 0.29, 0.3), (0.3, 0.3, 0.3), -17))
 
 
+def cropped_room(tall, short):
+    """A part of a larger picture, off its middle and off the optical axis."""
+    whole = f'<integer name="width" value="{WIDTH}"/><integer name="height" value="{HEIGHT}"/>'
+    part = ('<integer name="width" value="160"/><integer name="height" value="112"/>'
+            '<integer name="crop_offset_x" value="70"/><integer name="crop_offset_y" value="20"/>'
+            f'<integer name="crop_width" value="{WIDTH}"/><integer name="crop_height" value="{HEIGHT}"/>')
+    point = '<float name="principal_point_offset_x" value="0.1"/><float name="principal_point_offset_y" value="-0.05"/>'
+    return in_room(tall, short).replace(whole, part).replace("<film", point + "<film")
+
+
 def in_lit_room(tall, short):
     """With lights without extent beside the lamp."""
     return in_room(tall, short).replace("</scene>", delta_lights() + "</scene>")

@@ -28,6 +28,7 @@ WHITE = xml.diffuse(xml.WHITE)
 
 MITSUBA = [
     Case("cornell", lambda folder: xml.in_room(WHITE, WHITE), DIFFUSE, 96, 384),
+    Case("film-crop", lambda folder: xml.cropped_room(WHITE, WHITE), DIFFUSE, 96, 384),
     Case("delta-lights", lambda folder: xml.in_lit_room(WHITE, WHITE), DIFFUSE, 96, 384),
     Case("sky", lambda folder: xml.outside(xml.sky(), WHITE, xml.diffuse(xml.RED)), DIFFUSE, 32, 64),
     Case("environment-map", lambda folder: xml.outside(xml.environment_map(folder), WHITE, xml.diffuse(xml.RED)), DIFFUSE,

@@ -83,7 +83,7 @@ TEST_CASE("Render controls: an SD-tree is chosen on the CPU, and keeps the other
     model.render().set_backend("cuda");
     CHECK(model.render().wanted_backend() == "cuda");
     model.render().set_field(tree);
-    CHECK(model.render().settings().field.representation == Representation::Table);
+    CHECK(model.render().settings().field.representation == Representation::NeuralVertex);
 }
 
 TEST_CASE("Render controls: a failure of a back end is reported, and the CPU takes over") {
