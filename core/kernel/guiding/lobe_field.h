@@ -145,8 +145,9 @@ private:
     }
     /// Shares of the lobes in the mixture's density at the site, and that density. Where all lobes underflow, the nearest has it all.
     PL_HD float responsibilities(std::uint32_t volume, Vec3f wi, float (&part)[kMostLobes]) const {
-        float exponent[kMostLobes], density[kMostLobes];
-        for (std::uint32_t i = 0; i < kMostLobes; ++i) {
+        const std::uint32_t count = lobe_count[volume];
+        float exponent[kMostLobes], density[kMostLobes] = {};
+        for (std::uint32_t i = 0; i < count; ++i) {
             const VmfLobe lobe = lobe_of(volume, i);
             const Vec3f chord = wi - lobe.mean;
             exponent[i] = lobe.kappa * glm::dot(chord, chord);
@@ -154,13 +155,13 @@ private:
         }
         const float sum = sum_by_halves(density);
         if (sum > 1.0e-20f) {
-            for (std::uint32_t i = 0; i < kMostLobes; ++i) part[i] = density[i] / sum;
+            for (std::uint32_t i = 0; i < count; ++i) part[i] = density[i] / sum;
             return sum;
         }
         std::uint32_t nearest = 0;
-        for (std::uint32_t i = 1; i < lobe_count[volume]; ++i)
+        for (std::uint32_t i = 1; i < count; ++i)
             if (exponent[i] < exponent[nearest]) nearest = i;
-        for (std::uint32_t i = 0; i < kMostLobes; ++i) part[i] = i == nearest ? 1.0f : 0.0f;
+        for (std::uint32_t i = 0; i < count; ++i) part[i] = i == nearest ? 1.0f : 0.0f;
         return sum;
     }
 };

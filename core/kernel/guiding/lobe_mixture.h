@@ -1,5 +1,5 @@
-// Mixtures of von Mises-Fisher lobes by components: product with the cosine, sampling and density. Loops over all lobes have no branches,
-// so that compilers make vectors of them.
+// Mixtures of von Mises-Fisher lobes by components: product with the cosine, sampling and density. Loops over lobes have no branches, so
+// that compilers make vectors of them.
 #pragma once
 
 #include "core/kernel/base/frame.h"
@@ -21,12 +21,21 @@ PL_INLINE float sum_by_halves(const float (&values)[kCount]) {
     return sums[0];
 }
 
-/// Lobes in the frame of a volume's normal or of the world. Those that are not in use have no weight.
+/// Lobes are computed by so many; those that fill the last of these blocks have no weight.
+inline constexpr std::uint32_t kLobeBlock = 4;
+
+/// Lobes in the frame of a volume's normal or of the world.
 template <std::uint32_t kCapacity>
 struct LobesOf {
+    static_assert(kCapacity % kLobeBlock == 0);
+
+    std::uint32_t used = 0;                          ///< those with a weight are among the first
     float x[kCapacity], y[kCapacity], z[kCapacity];  ///< of the unit means
     float kappa[kCapacity];
     float weight[kCapacity];
+
+    /// Those to be computed: whole blocks.
+    PL_INLINE std::uint32_t count() const { return (used + (kLobeBlock - 1)) / kLobeBlock * kLobeBlock; }
 
     PL_INLINE void set(std::uint32_t i, const VmfLobe& lobe, float lobe_weight) {
         x[i] = lobe.mean.x;
@@ -45,8 +54,8 @@ struct LobeMixtureOf {
     float peak[kCapacity];     ///< probability times the lobe's density at its mean
 
     PL_HD float pdf_sa(Vec3f wi) const {
-        float densities[kCapacity];
-        for (std::uint32_t i = 0; i < kCapacity; ++i) {
+        float densities[kCapacity] = {};
+        for (std::uint32_t i = 0; i < lobes.count(); ++i) {
             const VmfLobe lobe = lobes.lobe(i);
             densities[i] = peak[i] * vmf_falloff(lobe.mean, lobe.kappa, wi);
         }
@@ -56,7 +65,7 @@ struct LobeMixtureOf {
     PL_HD Vec3f sample(Vec2f u) const {
         std::uint32_t chosen = 0;
         float below = 0.0f, sum = 0.0f;
-        for (std::uint32_t i = 0; i < kCapacity; ++i) {
+        for (std::uint32_t i = 0; i < lobes.used; ++i) {
             if (!(lobes.weight[i] > 0.0f)) continue;
             if (u.x >= sum) {
                 chosen = i;
@@ -74,15 +83,16 @@ struct LobeMixtureOf {
 /// Lobes times the cosine to a normal, which a lobe stands for: a mixture again. A weight is positive.
 template <std::uint32_t kCapacity>
 PL_HD inline LobeMixtureOf<kCapacity> times_cosine(const LobesOf<kCapacity>& lobes, Vec3f normal) {
-    LobeMixtureOf<kCapacity> mixture;
-    for (std::uint32_t i = 0; i < kCapacity; ++i) {
+    LobeMixtureOf<kCapacity> mixture{};
+    mixture.lobes.used = lobes.used;
+    for (std::uint32_t i = 0; i < lobes.count(); ++i) {
         const VmfLobe lobe = lobes.lobe(i);
         const VmfProduct product = vmf_product(lobe, {normal, kCosineKappa});
         mixture.peak[i] = lobes.weight[i] * vmf_peak(lobe.kappa) * product.scale;
         mixture.lobes.set(i, product.lobe, mixture.peak[i] / vmf_peak(product.lobe.kappa));
     }
     const float sum = sum_by_halves(mixture.lobes.weight);
-    for (std::uint32_t i = 0; i < kCapacity; ++i) {
+    for (std::uint32_t i = 0; i < lobes.count(); ++i) {
         mixture.lobes.weight[i] /= sum;
         mixture.peak[i] /= sum;
     }

@@ -55,7 +55,8 @@ struct LobeView : PlacementView, LobeArrays<ConstSpan, Span> {
         constexpr float kNoLength = 1.0e-20f;
         const float distance = glm::length(offset);
         Lobes lobes;
-        for (std::uint32_t i = 0; i < kMostLobes; ++i) {
+        lobes.used = lobe_count[volume];
+        for (std::uint32_t i = 0; i < lobes.count(); ++i) {
             const VmfLobe lobe = lobe_of(volume, i);
             const float inverse = inverse_distance[volume * kMostLobes + i];
             const float length = distance * inverse;
@@ -70,8 +71,8 @@ struct LobeView : PlacementView, LobeArrays<ConstSpan, Span> {
     /// Density in proportion to incident radiance at a point, per steradian.
     PL_HD float radiance_pdf_sa(std::uint32_t volume, Vec3f offset, Vec3f wi) const {
         const Lobes lobes = lobes_at(volume, offset);
-        float densities[kMostLobes];
-        for (std::uint32_t i = 0; i < kMostLobes; ++i) {
+        float densities[kMostLobes] = {};
+        for (std::uint32_t i = 0; i < lobes.count(); ++i) {
             const VmfLobe lobe = lobes.lobe(i);
             densities[i] = lobes.weight[i] * vmf_peak(lobe.kappa) * vmf_falloff(lobe.mean, lobe.kappa, wi);
         }

@@ -43,6 +43,7 @@ PL_HD inline VertexMixture vertex_mixture(const float* outputs, Vec3f normal) {
     float most = logits[0];
     for (std::uint32_t i = 1; i < kVertexLobes; ++i) most = max_of(most, logits[i]);
     LobesOf<kVertexLobes> lobes;
+    lobes.used = kVertexLobes;
     for (std::uint32_t i = 0; i < kVertexLobes; ++i)
         lobes.set(i, vertex_lobe(outputs, normal, i), decay_of(most - logits[i]));
     return times_cosine(lobes, normal);
@@ -51,7 +52,8 @@ PL_HD inline VertexMixture vertex_mixture(const float* outputs, Vec3f normal) {
 /// The cosine alone, by the lobe that stands for it.
 PL_HD inline VertexMixture cosine_mixture(Vec3f normal) {
     LobesOf<kVertexLobes> lobes;
-    for (std::uint32_t i = 0; i < kVertexLobes; ++i) lobes.set(i, {normal, 0.0f}, i == 0 ? 1.0f : 0.0f);
+    lobes.used = 1;
+    for (std::uint32_t i = 0; i < lobes.count(); ++i) lobes.set(i, {normal, 0.0f}, i == 0 ? 1.0f : 0.0f);
     return times_cosine(lobes, normal);
 }
 
