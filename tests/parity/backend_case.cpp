@@ -43,10 +43,10 @@ std::string BackendCase::label() const {
         settings.forced_effects.bits);
     if (info_of(settings.method).uses_field)
         words += fmt::format(
-            " target={} light={} rate={} volumes={} bins={} lookup={} precompute={} refine={} mixture={}:{}",
-            name_of(field.learning.target), static_cast<std::uint32_t>(field.learning.light),
-            static_cast<std::uint32_t>(field.rate), field.volumes, field.bins,
-            static_cast<std::uint32_t>(field.lookup), field.precompute_samples, field.refine_share,
+            " field={} target={} light={} rate={} volumes={} bins={} lookup={} precompute={} refine={} mixture={}:{}",
+            static_cast<std::uint32_t>(field.representation), name_of(field.learning.target),
+            static_cast<std::uint32_t>(field.learning.light), static_cast<std::uint32_t>(field.rate), field.volumes,
+            field.bins, static_cast<std::uint32_t>(field.lookup), field.precompute_samples, field.refine_share,
             settings.mixture.learned, settings.mixture.bsdf_fraction);
     return words;
 }
@@ -64,8 +64,10 @@ CaseResult compare_backends(const BackendCase& compared, bool spoil) {
     compare_arrays(result.film, a.pixels, b.pixels);
     for (std::size_t half = 0; half < 2; ++half)
         compare_arrays(result.film, a.halves.mean[half], b.halves.mean[half]);
-    zip(cpu.state.tables, cuda.state.tables,
-        [&](const auto& x, const auto& y) { compare_arrays(result.tables, x, y); });
+    const auto compare = [&](const auto& x, const auto& y) { compare_arrays(result.tables, x, y); };
+    zip(cpu.state.tables, cuda.state.tables, compare);
+    zip(cpu.state.neural, cuda.state.neural, compare);
+    zip(cpu.state.vertex, cuda.state.vertex, compare);
     result.same_counters =
         a.passes == b.passes && a.halves.weights == b.halves.weights && test::same_events(a.counters, b.counters);
     return result;

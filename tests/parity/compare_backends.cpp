@@ -58,9 +58,10 @@ struct Learner {
     MethodId method;
     LearningTarget target;
     const char* name;
+    Representation representation = Representation::Table;
 };
 
-/// All methods, and those that learn with every target.
+/// All methods, and those that learn with every target, and by networks.
 std::vector<Learner> all_learners() {
     std::vector<Learner> learners;
     for (const MethodInfo& method : all_methods()) {
@@ -68,6 +69,8 @@ std::vector<Learner> all_learners() {
         if (method.id != learning_method()) continue;
         learners.push_back({method.id, LearningTarget::Sarsa, "sarsa"});
         learners.push_back({method.id, LearningTarget::MonteCarlo, "monte-carlo"});
+        learners.push_back({method.id, LearningTarget::ExpectedSarsa, "neural", Representation::Neural});
+        learners.push_back({method.id, LearningTarget::ExpectedSarsa, "neural-vertex", Representation::NeuralVertex});
     }
     return learners;
 }
@@ -85,6 +88,7 @@ void compare_all(Comparison& comparison, SceneShelf& scenes, const Options& opti
                 compared.settings.field.volumes = options.volumes;
                 compared.settings.field.bins = 64;
                 compared.settings.field.learning.target = learner.target;
+                compared.settings.field.representation = learner.representation;
                 comparison.add("compare", scenes.names()[i] + " " + learner.name + (next_event ? " nee" : ""),
                                compared);
             }

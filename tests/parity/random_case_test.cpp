@@ -21,6 +21,7 @@ TEST_CASE("Random cases cover scenes, methods, targets and light samples, in siz
     std::set<std::string> names;
     std::set<MethodId> methods;
     std::set<LearningTarget> targets;
+    std::set<Representation> representations;
     std::set<bool> light_samples;
     for (std::uint32_t number = 0; number < 100; ++number) {
         const BackendCase drawn = random_case(scenes, 3, number);
@@ -28,6 +29,7 @@ TEST_CASE("Random cases cover scenes, methods, targets and light samples, in siz
         names.insert(drawn.scene->name);
         methods.insert(settings.method);
         targets.insert(settings.field.learning.target);
+        representations.insert(settings.field.representation);
         light_samples.insert(settings.next_event);
         CHECK((settings.width >= 1 && settings.width <= 96 && settings.height >= 1 && settings.height <= 96));
         CHECK((drawn.passes >= 1 && drawn.passes <= 12));
@@ -37,5 +39,6 @@ TEST_CASE("Random cases cover scenes, methods, targets and light samples, in siz
     CHECK(names.size() == 2);
     CHECK(methods.size() == all_methods().size());
     CHECK(targets.size() == 3);
+    CHECK(representations.size() == 3);
     CHECK(light_samples.size() == 2);
 }
