@@ -85,7 +85,8 @@ TEST_CASE("mitsuba: crops of the film, and a principal point off its middle") {
         "<integer name=\"crop_offset_x\" value=\"320\"/><integer name=\"crop_offset_y\" value=\"45\"/>"
         "<integer name=\"crop_width\" value=\"160\"/><integer name=\"crop_height\" value=\"90\"/>";
     const SceneDescription cropped = load_mitsuba_text(sensor("", crop));
-    CHECK(cropped.warnings.empty());
+    CHECK(std::ranges::none_of(cropped.warnings,
+                               [](const std::string& text) { return text.find("crop") != std::string::npos; }));
     CHECK(cropped.setting("size") == "160x90");
     CHECK(std::tan(glm::radians(0.5f * cropped.camera.fov_deg)) == Approx(0.25f * std::tan(glm::radians(30.0f))));
     CHECK(cropped.camera.shift.x == Approx(80.0f / 90.0f));
