@@ -9,6 +9,7 @@
 #include "core/scene/needed_effects.h"
 #include "core/scene/pack_scene.h"
 #include "core/session/exact_backend.h"
+#include "tests/cuda/cuda_session.h"
 #include "tests/cuda/shim/control.h"
 #include "tests/support/catch.hpp"
 #include "tests/support/files/input_error.h"
@@ -23,16 +24,6 @@ using namespace pl;
 using namespace pl::test;
 
 namespace {
-
-Session make_cuda_session(const SceneDescription& scene, const RenderSettings& settings,
-                          const CudaOptions& options = {}) {
-    return Session(make_cuda_backend(options), std::make_shared<const SceneDescription>(scene), settings);
-}
-
-constexpr Representation kNetworks[] = {Representation::Neural, Representation::NeuralVertex};
-
-/// Launches so short that most paths have to wait for the next one.
-constexpr CudaOptions kShortLaunches{.most_segments = 2};
 
 /// Calls `call` with the number of each launch, until it is called with an empty function.
 void on_launch(const std::function<void(int)>& call) {
@@ -102,55 +93,6 @@ TEST_CASE("Every target, rate and rule of roulette gives the bits of the CPU bac
         }
         CHECK(same_state(render(make_cuda_session(scene, settings)), render(make_session(scene, settings))));
     }
-}
-
-TEST_CASE("Fields with networks have the bits, the size and the views of the CPU back end") {
-    const SceneDescription scene = shipped_scene("door");
-    for (const Representation representation : kNetworks) {
-        INFO(static_cast<int>(representation));
-        RenderSettings settings = small_settings(scene, {MethodId::Reinforcement, true});
-        settings.field.representation = representation;
-        shim::reset();
-        shim::set_threads(3);
-        Session cpu = make_session(scene, settings);
-        Session cuda = make_cuda_session(scene, settings, kShortLaunches);
-        render_passes(cpu, 6);
-        render_passes(cuda, 6);
-        CHECK(same_state(state_of(cuda), state_of(cpu)));
-        const std::optional<FieldStatus> expected = cpu.snapshot(slot_of(cpu)).field;
-        const std::optional<FieldStatus> got = cuda.snapshot(slot_of(cuda)).field;
-        REQUIRE((expected && got && expected->network && got->network));
-        CHECK(got->bytes == expected->bytes);
-        CHECK(got->network->steps == expected->network->steps);
-        CHECK(got->network->steps > 0);
-        CHECK(got->network->bytes == expected->network->bytes);
-        for (const ViewInfo& view : all_views()) {
-            INFO(view.name);
-            const FilmSlot slot{MethodId::Reinforcement, view.id};
-            render_passes(cpu, slot, 1);
-            render_passes(cuda, slot, 1);
-            CHECK(same_film(state_of(cuda, slot), state_of(cpu, slot)));
-        }
-    }
-    CHECK(shim::live_objects() == 0);
-}
-
-TEST_CASE("A network that is lost guides by the cosine on both back ends") {
-    shim::reset();
-    const SceneDescription scene = shipped_scene("door");
-    RenderSettings settings = small_settings(scene, {MethodId::Reinforcement, false});
-    settings.field.representation = Representation::NeuralVertex;
-    const auto render_lost = [&](Session session) {
-        render_passes(session, 2);
-        RenderBackend& backend = session.backend_access();
-        HostField field = backend.download_field(MethodId::Reinforcement);
-        std::get<HostNeuralVertex>(field).weights[kVertexLayout.last] = std::numeric_limits<float>::quiet_NaN();
-        backend.upload_field(MethodId::Reinforcement, std::move(field));
-        render_passes(session, 2);
-        CHECK(backend.network_status(MethodId::Reinforcement)->is_lost);
-        return state_of(session);
-    };
-    CHECK(same_state(render_lost(make_cuda_session(scene, settings)), render_lost(make_session(scene, settings))));
 }
 
 TEST_CASE("A film that guiding is given up in has the bits of the CPU back end, launches of any size") {
