@@ -99,10 +99,12 @@ AnyFieldView DeviceFields::view(MethodId method) {
     StoredField& stored = existing(method);
     AnyFieldView view = field_view(shape_, volumes_, stored.arrays);
     const Span<const VolumeRecord> records = view_of(std::as_const(stored.records));
-    if (auto* vertex = std::get_if<NeuralVertexField>(&view))
+    if (auto* vertex = std::get_if<NeuralVertexField>(&view)) {
         vertex->records = records;
-    else
+        vertex->evaluate = nullptr;  // kernels do, see network_step.cuh
+    } else {
         std::get<TableField>(view).records = records;
+    }
     return view;
 }
 

@@ -46,15 +46,20 @@ struct TraceBlock {
     }
 };
 
+/// Whether kernels of M evaluate a network for the vertices of a warp, see network_step.cuh.
+template <class M>
+concept NetworkMethod = GuidedMethod<M> && std::same_as<typename M::Field, NeuralVertexField>;
+
 /// The instructions of a segment fit the instruction caches of a processor in `default` without lobes; the threads of other kernels go
 /// through it in steps. The fastest measured variant: docs/notebook/2026-11-27-second-hour-on-a-gpu.md.
 template <FeatureSet F, class M>
 constexpr TraceBlock trace_block() {
+    constexpr int kLeastSteps = NetworkMethod<M> ? 1 : 0;
     constexpr int kMostSteps = F.has(Feature::NextEventEstimation) ? 5 : 2;  // 2: the path's ray, and shading
     if constexpr (F.has_any(kLobeFeatures))
-        return TraceBlock::of(384, PL_CUDA_LOBE_BLOCKS, PL_CUDA_LOBE_STEPS);
+        return TraceBlock::of(384, PL_CUDA_LOBE_BLOCKS, std::max(PL_CUDA_LOBE_STEPS, kLeastSteps));
     else if constexpr (GuidedMethod<M>)
-        return TraceBlock::of(512, PL_CUDA_GUIDED_BLOCKS, std::min(PL_CUDA_GUIDED_STEPS, kMostSteps));
+        return TraceBlock::of(512, PL_CUDA_GUIDED_BLOCKS, std::clamp(PL_CUDA_GUIDED_STEPS, kLeastSteps, kMostSteps));
     else
         return TraceBlock::of(F == FeatureSet{} ? 896 : 640, F == FeatureSet{} ? 7 : 5, 0);
 }

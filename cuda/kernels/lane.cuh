@@ -17,6 +17,12 @@ inline constexpr std::uint32_t kWarpLanes = 32;
 __device__ inline std::uint32_t lane_number() { return threadIdx.x % kWarpLanes; }
 /// A bit for each lane in which the condition holds. All lanes must call it.
 __device__ inline std::uint32_t lanes_where(bool condition) { return __ballot_sync(0xffffffffu, condition); }
+/// How many of the lanes of lanes_where() are before this one.
+__device__ inline std::uint32_t lanes_before(std::uint32_t lanes) {
+    return static_cast<std::uint32_t>(__popc(lanes & ((1u << lane_number()) - 1u)));
+}
+/// All lanes must call it: what they have written to shared memory is then read by any of them.
+__device__ inline void wait_for_lanes() { __syncwarp(); }
 /// The value that a lane has. All lanes must call it, for the same lane.
 __device__ inline std::uint32_t of_lane(std::uint32_t value, std::uint32_t lane) {
     return __shfl_sync(0xffffffffu, value, static_cast<int>(lane));
@@ -28,6 +34,8 @@ __device__ inline float of_lane(float value, std::uint32_t lane) {
 inline constexpr std::uint32_t kWarpLanes = 1;
 inline std::uint32_t lane_number() { return 0; }
 inline std::uint32_t lanes_where(bool condition) { return condition ? 1u : 0u; }
+inline std::uint32_t lanes_before(std::uint32_t) { return 0; }
+inline void wait_for_lanes() {}
 template <class Value>
 inline Value of_lane(Value value, std::uint32_t) {
     return value;

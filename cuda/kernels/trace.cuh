@@ -9,6 +9,7 @@
 #include "core/kernel/integrator/trace_path.h"
 #include "cuda/kernels/kernels.h"
 #include "cuda/kernels/lane.cuh"
+#include "cuda/kernels/network_step.cuh"
 #include "cuda/kernels/scene_intersector.cuh"
 #include "cuda/runtime/launch.h"
 
@@ -91,7 +92,8 @@ __global__ void __launch_bounds__(trace_block<FeatureSet{kFeatureBits}, M>().thr
     trace_paths(const __grid_constant__ TraceSetup setup, const __grid_constant__ M method,
                 const __grid_constant__ Paths paths) {
     constexpr FeatureSet kFeatures{kFeatureBits};
-    using Step = StepOfBlock<trace_block<kFeatures, M>().steps>;
+    constexpr TraceBlock kBlock = trace_block<kFeatures, M>();
+    using Step = StepOfBlock<kBlock.steps>;
     const SceneIntersector intersector{setup.scene};
     const PathContext<M> context{setup.scene, method, setup.path};
     ThreadCounters counters;
@@ -111,6 +113,8 @@ __global__ void __launch_bounds__(trace_block<FeatureSet{kFeatureBits}, M>().thr
         PassCounters fresh;
         SegmentEnd<kFeatures, M> end;
         if (has_path) status = shade_segment<kFeatures>(context, hit, state, end, fresh.path);
+        if constexpr (NetworkMethod<M>)
+            evaluate_network<kBlock.threads>(method.field, has_path && status == PathStatus::Continues, end.from);
         Step::template begin<5>();
         ShadowRequest<M> shadow;
         if (has_path) status = sample_light_at_end<kFeatures>(context, hit, status, end, state, shadow, fresh.path);

@@ -23,6 +23,7 @@ struct Options {
     double seconds = 1.0;
     std::vector<std::string> sizes{"512x512", "1280x720", "1920x1080"};
     std::vector<std::string> also;
+    std::string fields_size;
     std::size_t ball_rows = 0;
     int volumes = 20000;
 };
@@ -129,6 +130,19 @@ void measure_lookups(const std::shared_ptr<const SceneDescription>& scene, Size 
     measure(scene, row, options.seconds);
 }
 
+/// `reinforcement` by the representations that the back end serves; the row's label names them.
+void measure_fields(const std::shared_ptr<const SceneDescription>& scene, Size size, double seconds) {
+    for (const auto& [label, representation] :
+         {std::pair{"table", Representation::Table}, std::pair{"neural", Representation::Neural},
+          std::pair{"neural-vertex", Representation::NeuralVertex}})
+        for (const bool next_event : {false, true}) {
+            Row row{.scene = "cornell", .label = label, .method = MethodId::Reinforcement, .next_event = next_event};
+            row.size = size;
+            row.field.representation = representation;
+            measure(scene, row, seconds);
+        }
+}
+
 void measure_launches(const std::shared_ptr<const SceneDescription>& scene, Size size, double seconds) {
     for (const MethodId method : {MethodId::Default, MethodId::Precomputed})
         for (const std::uint32_t samples : {1u, 4u, 16u})
@@ -148,6 +162,7 @@ void run(const Options& options) {
     for (const std::string& name : options.also)
         measure_methods(std::make_shared<const SceneDescription>(load_scene(name, find_assets_dir())), name,
                         parse_size(options.sizes.back()), options.seconds);
+    if (!options.fields_size.empty()) measure_fields(cornell, parse_size(options.fields_size), options.seconds);
     if (options.volumes > 0) measure_lookups(cornell, parse_size(options.sizes.front()), options);
     if (options.ball_rows == 0) return;
     const test::TemporaryFolder folder;
@@ -167,6 +182,8 @@ int main(int argc, char** argv) {
                    "WIDTHxHEIGHT of the pictures; lookups have the first one, --also and the ball the last")
         ->delimiter(',');
     app.add_option("--also", options.also, "shipped scenes to measure besides the Cornell box")->delimiter(',');
+    app.add_option("--fields-size", options.fields_size,
+                   "WIDTHxHEIGHT of the comparison of representations; without: none");
     app.add_option("--ball-rows", options.ball_rows, "rows of a ball of quads, 501 for a million triangles; 0: none")
         ->check(CLI::Range(0, 2000));
     app.add_option("--volumes", options.volumes, "of the comparison of lookups; 0: none")

@@ -20,20 +20,16 @@ PL_INLINE T select(Mask mask, T yes, T no) {
 /// Four neighboring numbers; on a device one load.
 struct alignas(16) FourFloats {
     float v[4];
-
-    PL_INLINE FourFloats& operator+=(const FourFloats& other) {
-        for (int i = 0; i < 4; ++i) v[i] += other.v[i];
-        return *this;
-    }
-    PL_INLINE friend FourFloats operator*(float factor, const FourFloats& four) {
-        return {{factor * four.v[0], factor * four.v[1], factor * four.v[2], factor * four.v[3]}};
-    }
 };
-/// `values` is aligned to 16 bytes.
+/// Here and below `values` is aligned to 16 bytes.
 PL_INLINE FourFloats load_four(const float* values) {
     FourFloats four;
     std::memcpy(&four, __builtin_assume_aligned(values, sizeof four), sizeof four);
     return four;
+}
+PL_INLINE void store_four(float* values, const FourFloats& four) {
+    void* place = values;  // nvcc 13 does not take a pointer to float here
+    std::memcpy(__builtin_assume_aligned(place, sizeof four), &four, sizeof four);
 }
 
 /// Scalars.

@@ -63,9 +63,11 @@ struct NetworkLayout {
     constexpr std::uint32_t hidden_row() const { return hidden + kBiasUnits; }
 };
 
+PL_INLINE float activated(float sum) { return sum > 0.0f ? sum : kLeak * sum; }
+
 /// Hidden units of their sums, and the constant behind them.
 PL_INLINE void activate_units(float* units, std::uint32_t count) {
-    for (std::uint32_t i = 0; i < count; ++i) units[i] = units[i] > 0.0f ? units[i] : kLeak * units[i];
+    for (std::uint32_t i = 0; i < count; ++i) units[i] = activated(units[i]);
     units[count] = 1.0f;
 }
 

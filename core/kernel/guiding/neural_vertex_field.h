@@ -17,29 +17,32 @@ struct NeuralVertexLocation : TableLocation {
 struct NeuralVertexField : TableField {
     using Location = NeuralVertexLocation;
 
-    VertexEvaluator evaluate = nullptr;  ///< of the host; a device has evaluate_vertex()
-    Span<const float> weights;           ///< of kVertexLayout, the running means
-    Span<const std::uint32_t> counts;    ///< by NetworkCount
-    Vec3f corner{0.0f};                  ///< lowest corner of the cube that the grids divide
-    float edge = 1.0f;                   ///< of the cube, above 0
+    /// None: drivers of many paths evaluate the network for many vertices at once, after locate(), which leaves them the mixture.
+    VertexEvaluator evaluate = nullptr;
+    Span<const float> weights;         ///< of kVertexLayout, the running means
+    Span<const std::uint32_t> counts;  ///< by NetworkCount
+    Vec3f corner{0.0f};                ///< lowest corner of the cube that the grids divide
+    float edge = 1.0f;                 ///< of the cube, above 0
 
+    /// Directions are then sampled by the cosine alone.
+    PL_HD bool is_lost() const { return counts[kNetworkIsLost] != 0; }
     PL_HD NetworkPoint point_of(Vec3f position, Vec3f normal) const { return {(position - corner) / edge, normal}; }
-    /// Of a network that is lost: the cosine alone.
+    /// `evaluate` is set.
     PL_HD VertexMixture mixture_at(Vec3f position, Vec3f normal) const {
-        if (counts[kNetworkIsLost] != 0) return cosine_mixture(normal);
+        if (is_lost()) return cosine_mixture(normal);
         float inputs[kInputs], outputs[kVertexColumns];
         fill_inputs(point_of(position, normal), weights.data, inputs);
-        if constexpr (is_device_code())
-            evaluate_vertex<FourFloats>(weights.data, inputs, outputs);
-        else
-            evaluate(weights.data, inputs, outputs);
+        evaluate(weights.data, inputs, outputs);
         return vertex_mixture(outputs, normal);
     }
 
     PL_HD Location locate(const SurfacePoint& surface) const {
         const TableLocation place = TableField::locate(surface);
         if (!place.is_served()) return {};
-        return {place, mixture_at(surface.position, surface.shading_normal)};
+        if constexpr (!is_device_code()) {
+            if (evaluate != nullptr) return {place, mixture_at(surface.position, surface.shading_normal)};
+        }
+        return {place, {}};
     }
     PL_HD Vec3f sample(const Location& location, const SurfacePoint&, const ScatterNumbers& numbers) const {
         return location.mixture.sample({numbers.u.y, numbers.u.z});

@@ -3,7 +3,6 @@
 // bit.   [Dong et al. 2023, "Neural Parametric Mixtures for Path Guiding"]
 #pragma once
 
-#include "core/kernel/base/numbers.h"
 #include "core/kernel/guiding/network_layout.h"
 
 namespace pl {
@@ -30,8 +29,7 @@ static_assert(kVertexColumns <= kVertexLayout.columns);
 /// outputs: [kVertexColumns], from inputs: [kInputs].
 using VertexEvaluator = void (*)(const float* weights, const float* inputs, float* outputs);
 
-/// kUnits sums over `inputs`, whose weights lie `row` apart from input to input. Real: float, FourFloats, or a vector of floats;
-/// but for single floats, weights are aligned to 16 bytes.
+/// kUnits sums over `inputs`, whose weights lie `row` apart from input to input. Real: float, or a vector of floats.
 template <class Real, std::uint32_t kUnits>
 PL_INLINE void sum_units(const float* inputs, std::uint32_t count, const float* weights, std::uint32_t row,
                          float* units) {
@@ -39,14 +37,13 @@ PL_INLINE void sum_units(const float* inputs, std::uint32_t count, const float* 
     constexpr std::uint32_t kAll = kUnits / kLanes;
     constexpr std::uint32_t kVectors = kAll % 8 == 0 ? 8 : (kAll % 6 == 0 ? 6 : kAll);  // as many as registers hold
     static_assert(kUnits % (kVectors * kLanes) == 0 && kVectors <= 8);
-    constexpr std::size_t kAligned = kLanes < 4 ? alignof(float) : alignof(FourFloats);
     for (std::uint32_t first = 0; first < kUnits; first += kVectors * kLanes) {
         Real sums[kVectors] = {};
         const float* factors = weights + first;
         for (std::uint32_t i = 0; i < count; ++i, factors += row)
             for (std::uint32_t v = 0; v < kVectors; ++v) {
                 Real factor;
-                std::memcpy(&factor, __builtin_assume_aligned(factors + v * kLanes, kAligned), sizeof factor);
+                std::memcpy(&factor, factors + v * kLanes, sizeof factor);
                 sums[v] += inputs[i] * factor;
             }
         std::memcpy(units + first, sums, sizeof sums);
