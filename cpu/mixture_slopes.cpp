@@ -16,7 +16,7 @@ struct TaughtLobe {
 
 TaughtLobe taught_lobe(const float* outputs, Vec3f normal, std::uint32_t k) {
     TaughtLobe taught;
-    taught.lobe = vertex_lobe(outputs, normal, k);
+    taught.lobe = vertex_lobe(outputs_of(outputs, k), normal, k);
     const float kappa = taught.lobe.kappa;
     taught.axis = kappa * taught.lobe.mean + kCosineKappa * normal;
     taught.offset = outputs[kLobeLogit * kVertexLobes + k] + std::log(vmf_peak(kappa)) - kappa;
@@ -35,7 +35,7 @@ void lobe_slopes(const TaughtLobe& taught, const float* outputs, Vec3f normal, s
     const float by_kappa = along - by_offset * vmf_mean_cosine(kappa);
     const float narrowness = kFirstNarrowness + outputs[kLobeNarrowness * kVertexLobes + k];
     const bool is_free = narrowness > kLeastNarrowness && narrowness < kMostNarrowness;
-    const float length = max_of(glm::length(vertex_axis(outputs, normal, k)), 1.0e-6f);
+    const float length = max_of(glm::length(vertex_axis(outputs_of(outputs, k).shift, normal, k)), 1.0e-6f);
     const Vec3f across = (kappa / length) * (by_axis - along * mean);
     slopes[kLobeLogit * kVertexLobes + k] = by_offset;
     slopes[kLobeX * kVertexLobes + k] = across.x;

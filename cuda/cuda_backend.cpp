@@ -114,7 +114,8 @@ void CudaBackend::launch_picture(const PassRequest& request, const PixelPaths& p
     const auto launch_kernel = [&]<int kEntry>() {
         IntegratorAt<kEntry> method;
         configure_method(method, field, request.mixture, request.learning);
-        launch_paths(picture_kernels<kEntry>()[covering_set(request.features)], request.path, method, pixels);
+        launch_paths(picture_kernels<kEntry>()[covering_set(request.features)], request.path, to_kernel(method),
+                     pixels);
     };
     const bool samples_lights = request.path.next_event != 0;
     if (std::holds_alternative<NeuralVertexField>(field))

@@ -85,26 +85,31 @@ void DeviceFields::update(MethodId method) {
     stream_.wait("updating a field");
 }
 
-/// Teaches the network by the tables as they are on the device.
+/// Teaches the network by the tables as they are on the device. Arrays that have changed go back.
 void DeviceFields::teach_network(MethodId method) {
+    StoredField& stored = existing(method);
     HostField field = download(method);
-    if (auto* neural = std::get_if<HostNeural>(&field))
+    if (auto* neural = std::get_if<HostNeural>(&field)) {
         update_network(shape_, *host_volumes_, *neural, usable_threads());
-    if (auto* vertex = std::get_if<HostNeuralVertex>(&field))
-        update_vertex_network(shape_, *host_volumes_, *vertex, usable_threads());
-    store(existing(method), field);
+        return store(stored, field);
+    }
+    auto& vertex = std::get<HostNeuralVertex>(field);
+    update_vertex_network(shape_, *host_volumes_, vertex, usable_threads());
+    auto& arrays = std::get<NeuralVertexStorage<DeviceArray>>(stored.arrays);
+    for_each_vertex_array([&](const auto& spec) { spec.get(arrays).upload(spec.get(vertex), stream_); });
+    stored.network = status_of(vertex);
+    gather_records(stored);
+    stream_.wait("updating a network");
 }
 
 AnyFieldView DeviceFields::view(MethodId method) {
     StoredField& stored = existing(method);
     AnyFieldView view = field_view(shape_, volumes_, stored.arrays);
     const Span<const VolumeRecord> records = view_of(std::as_const(stored.records));
-    if (auto* vertex = std::get_if<NeuralVertexField>(&view)) {
+    if (auto* vertex = std::get_if<NeuralVertexField>(&view))
         vertex->records = records;
-        vertex->evaluate = nullptr;  // kernels do, see network_step.cuh
-    } else {
+    else
         std::get<TableField>(view).records = records;
-    }
     return view;
 }
 

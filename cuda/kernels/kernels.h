@@ -13,7 +13,7 @@
 #include "core/kernel/integrator/lamp_borders.h"
 #include "core/kernel/integrator/probe.h"
 #include "core/kernel/methods/method_list.h"
-#include "cuda/runtime/launch.h"
+#include "cuda/kernels/thread_mixtures.h"
 
 /// Blocks of a processor in which the threads of guided methods, and of kernels with lobes, go through a segment together, and in how
 /// many steps at most, see StepOfBlock; 0: no barriers. Set by the options of these names of the build, so that a device
@@ -46,20 +46,18 @@ struct TraceBlock {
     }
 };
 
-/// Whether kernels of M evaluate a network for the vertices of a warp, see network_step.cuh.
-template <class M>
-concept NetworkMethod = GuidedMethod<M> && std::same_as<typename M::Field, NeuralVertexField>;
-
 /// The instructions of a segment fit the instruction caches of a processor in `default` without lobes; the threads of other kernels go
 /// through it in steps. The fastest measured variant: docs/notebook/2026-11-27-second-hour-on-a-gpu.md.
 template <FeatureSet F, class M>
 constexpr TraceBlock trace_block() {
-    constexpr int kLeastSteps = NetworkMethod<M> ? 1 : 0;
     constexpr int kMostSteps = F.has(Feature::NextEventEstimation) ? 5 : 2;  // 2: the path's ray, and shading
-    if constexpr (F.has_any(kLobeFeatures))
-        return TraceBlock::of(384, PL_CUDA_LOBE_BLOCKS, std::max(PL_CUDA_LOBE_STEPS, kLeastSteps));
+    constexpr std::uint32_t kThreads = F.has_any(kLobeFeatures) ? 384 : 512;
+    if constexpr (NetworkMethod<M>)
+        return TraceBlock::of(kThreads, kThreads / kThreadsPerBlock, kMostSteps);
+    else if constexpr (F.has_any(kLobeFeatures))
+        return TraceBlock::of(kThreads, PL_CUDA_LOBE_BLOCKS, PL_CUDA_LOBE_STEPS);
     else if constexpr (GuidedMethod<M>)
-        return TraceBlock::of(512, PL_CUDA_GUIDED_BLOCKS, std::clamp(PL_CUDA_GUIDED_STEPS, kLeastSteps, kMostSteps));
+        return TraceBlock::of(kThreads, PL_CUDA_GUIDED_BLOCKS, std::min(PL_CUDA_GUIDED_STEPS, kMostSteps));
     else
         return TraceBlock::of(F == FeatureSet{} ? 896 : 640, F == FeatureSet{} ? 7 : 5, 0);
 }
@@ -120,11 +118,13 @@ using PictureKernel = void (*)(TraceSetup, M, PixelPaths);
 using ProbeKernel = void (*)(TraceSetup, ProbeMethod, ProbePaths);
 using ViewKernel = void (*)(ViewSetup);
 
-/// Integrator and picture kernels of an entry of MethodList.
+/// Integrator, that of its kernels, and picture kernels of an entry of MethodList.
 template <int kEntry>
 using IntegratorAt = typename TypeAt<kEntry, MethodList>::Integrator;
 template <int kEntry>
-using PictureKernels = KernelRow<PictureKernel<IntegratorAt<kEntry>>>;
+using KernelMethodAt = KernelMethod<IntegratorAt<kEntry>>;
+template <int kEntry>
+using PictureKernels = KernelRow<PictureKernel<KernelMethodAt<kEntry>>>;
 template <int kEntry>
 const PictureKernels<kEntry>& picture_kernels();
 extern const KernelRow<ProbeKernel> kProbeKernels;

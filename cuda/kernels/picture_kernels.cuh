@@ -5,7 +5,8 @@ namespace pl::cuda {
 
 template <>
 const PictureKernels<PL_METHOD_ENTRY>& picture_kernels<PL_METHOD_ENTRY>() {
-    static constexpr PictureKernels<PL_METHOD_ENTRY> kKernels = make_picture_kernels<IntegratorAt<PL_METHOD_ENTRY>>();
+    static constexpr PictureKernels<PL_METHOD_ENTRY> kKernels =
+        make_picture_kernels<KernelMethodAt<PL_METHOD_ENTRY>>();
     return kKernels;
 }
 

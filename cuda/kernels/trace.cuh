@@ -92,8 +92,7 @@ __global__ void __launch_bounds__(trace_block<FeatureSet{kFeatureBits}, M>().thr
     trace_paths(const __grid_constant__ TraceSetup setup, const __grid_constant__ M method,
                 const __grid_constant__ Paths paths) {
     constexpr FeatureSet kFeatures{kFeatureBits};
-    constexpr TraceBlock kBlock = trace_block<kFeatures, M>();
-    using Step = StepOfBlock<kBlock.steps>;
+    using Step = StepOfBlock<trace_block<kFeatures, M>().steps>;
     const SceneIntersector intersector{setup.scene};
     const PathContext<M> context{setup.scene, method, setup.path};
     ThreadCounters counters;
@@ -114,7 +113,8 @@ __global__ void __launch_bounds__(trace_block<FeatureSet{kFeatureBits}, M>().thr
         SegmentEnd<kFeatures, M> end;
         if (has_path) status = shade_segment<kFeatures>(context, hit, state, end, fresh.path);
         if constexpr (NetworkMethod<M>)
-            evaluate_network<kBlock.threads>(method.field, has_path && status == PathStatus::Continues, end.from);
+            evaluate_network(method.field, has_path && status == PathStatus::Continues && end.from.vertex.is_served(),
+                             end.from.surface);
         Step::template begin<5>();
         ShadowRequest<M> shadow;
         if (has_path) status = sample_light_at_end<kFeatures>(context, hit, status, end, state, shadow, fresh.path);

@@ -64,7 +64,8 @@ struct RandomLight {
 
     /// Expected -ln of the density by which directions are sampled.
     double loss(const std::vector<float>& outputs) const {
-        const VertexMixture mixture = vertex_mixture(outputs.data(), normal);
+        VertexMixture mixture;
+        set_mixture(mixture, outputs.data(), normal);
         const Frame frame = make_frame(normal);
         double sum = 0.0;
         for (std::uint32_t i = 0; i < kCells; ++i) {
@@ -120,15 +121,13 @@ TEST_CASE("Every instruction set computes the same bits for a vertex") {
 TEST_CASE("A network asked for one vertex, with vectors or without, and for a block of volumes is the same") {
     const std::vector<float> weights = random_values(kVertexLayout.count, -0.3f, 0.3f, 3);
     const NetworkPoint point{{0.2f, 0.7f, 0.4f}, glm::normalize(Vec3f{0.1f, -0.4f, 0.3f})};
-    float inputs[kInputs], alone[kVertexColumns], in_fours[kVertexColumns], in_lanes[kVertexColumns];
+    float inputs[kInputs], alone[kVertexColumns], in_lanes[kVertexColumns];
     fill_inputs(point, weights.data(), inputs);
     evaluate_vertex_network(weights.data(), inputs, alone);
-    evaluate_vertex<FourFloats>(weights.data(), inputs, in_fours);
     best_neural_kernels().evaluate_vertex(weights.data(), inputs, in_lanes);
     NetworkBlock block(kVertexLayout);
     Network(best_neural_kernels(), kVertexLayout, weights.data()).predict(std::span(&point, 1), block);
     for (std::uint32_t i = 0; i < kVertexOutputs; ++i) {
-        CHECK(alone[i] == in_fours[i]);
         CHECK(alone[i] == in_lanes[i]);
         CHECK(alone[i] == block.outputs[i]);
     }
@@ -160,7 +159,7 @@ TEST_CASE("Lobes stay within the bounds of their concentration, and come back") 
     for (const float narrowness : {-50.0f, 50.0f}) {
         std::vector<float> outputs(kVertexColumns), slopes(kVertexOutputs);
         for (std::uint32_t k = 0; k < kVertexLobes; ++k) outputs[kLobeNarrowness * kVertexLobes + k] = narrowness;
-        const float kappa = vertex_lobe(outputs.data(), random.normal, 0).kappa;
+        const float kappa = vertex_lobe(outputs_of(outputs.data(), 0), random.normal, 0).kappa;
         CHECK(kappa == Approx(std::exp(narrowness > 0.0f ? kMostNarrowness : kLeastNarrowness)));
         mixture_slopes(best_neural_kernels(), random.light(), outputs.data(), 1.0f, slopes.data());
         for (std::uint32_t k = 0; k < kVertexLobes; ++k)

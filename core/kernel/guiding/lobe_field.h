@@ -13,7 +13,7 @@ namespace pl {
 struct LobeLocation {
     std::int32_t volume = kNoVolume;
     Vec3f offset{0.0f};  ///< see LobeView::offset_of()
-    LobeMixture mixture{};
+    LobeMixture mixture;
 
     PL_HD bool is_served() const { return volume != kNoVolume; }
 };

@@ -21,13 +21,16 @@ PL_INLINE float sum_by_halves(const float (&values)[kCount]) {
     return sums[0];
 }
 
-/// Lobes are computed by so many; those that fill the last of these blocks have no weight.
+/// Lobes are computed in blocks of so many, up to the last one with a weight; those that fill up its block have the weight 0.
 inline constexpr std::uint32_t kLobeBlock = 4;
 
-/// Lobes in the frame of a volume's normal or of the world.
-template <std::uint32_t kCapacity>
+/// Lobes in the frame of a volume's normal or of the world. kLeast: so many are computed, however few have a weight.
+template <std::uint32_t kCapacity, std::uint32_t kLeast = 0>
 struct LobesOf {
     static_assert(kCapacity % kLobeBlock == 0);
+
+    /// Without values, which a field that finds no volume does not have either: a vertex is copied several times before it has some.
+    PL_HD LobesOf() {}
 
     std::uint32_t used = 0;                          ///< those with a weight are among the first
     float x[kCapacity], y[kCapacity], z[kCapacity];  ///< of the unit means
@@ -35,7 +38,10 @@ struct LobesOf {
     float weight[kCapacity];
 
     /// Those to be computed: whole blocks.
-    PL_INLINE std::uint32_t count() const { return (used + (kLobeBlock - 1)) / kLobeBlock * kLobeBlock; }
+    PL_INLINE std::uint32_t count() const {
+        if constexpr (kLeast == kCapacity) return kCapacity;
+        return max_of(kLeast, (used + (kLobeBlock - 1)) / kLobeBlock * kLobeBlock);
+    }
 
     PL_INLINE void set(std::uint32_t i, const VmfLobe& lobe, float lobe_weight) {
         x[i] = lobe.mean.x;
@@ -47,11 +53,29 @@ struct LobesOf {
     PL_INLINE VmfLobe lobe(std::uint32_t i) const { return {{x[i], y[i], z[i]}, kappa[i]}; }
 };
 
-/// A normalized mixture.
-template <std::uint32_t kCapacity>
+/// Lobes times the cosine to a normal, which a lobe stands for: a normalized mixture, once all lobes are set.
+template <std::uint32_t kCapacity, std::uint32_t kLeast = 0>
 struct LobeMixtureOf {
-    LobesOf<kCapacity> lobes;  ///< their weights are their probabilities
-    float peak[kCapacity];     ///< probability times the lobe's density at its mean
+    PL_HD LobeMixtureOf() {}
+
+    LobesOf<kCapacity, kLeast> lobes;  ///< their weights are their probabilities
+    float peak[kCapacity];             ///< probability times the lobe's density at its mean
+
+    /// Sets the product of a lobe and the cosine. Those of whole blocks are to be set, see LobesOf::count().
+    PL_INLINE void set(std::uint32_t i, const VmfLobe& lobe, float lobe_weight, Vec3f normal) {
+        const VmfProduct product = vmf_product(lobe, {normal, kCosineKappa});
+        peak[i] = lobe_weight * vmf_peak(lobe.kappa) * product.scale;
+        lobes.set(i, product.lobe, peak[i] / vmf_peak(product.lobe.kappa));
+    }
+    /// When the lobes are set, of which some have a positive weight.
+    PL_INLINE void normalize() {
+        for (std::uint32_t i = lobes.count(); i < kCapacity; ++i) lobes.weight[i] = 0.0f;
+        const float sum = sum_by_halves(lobes.weight);
+        for (std::uint32_t i = 0; i < lobes.count(); ++i) {
+            lobes.weight[i] /= sum;
+            peak[i] /= sum;
+        }
+    }
 
     PL_HD float pdf_sa(Vec3f wi) const {
         float densities[kCapacity] = {};
@@ -80,22 +104,13 @@ struct LobeMixtureOf {
     }
 };
 
-/// Lobes times the cosine to a normal, which a lobe stands for: a mixture again. A weight is positive.
+/// The mixture of lobes of which some have a positive weight.
 template <std::uint32_t kCapacity>
 PL_HD inline LobeMixtureOf<kCapacity> times_cosine(const LobesOf<kCapacity>& lobes, Vec3f normal) {
-    LobeMixtureOf<kCapacity> mixture{};
+    LobeMixtureOf<kCapacity> mixture;
     mixture.lobes.used = lobes.used;
-    for (std::uint32_t i = 0; i < lobes.count(); ++i) {
-        const VmfLobe lobe = lobes.lobe(i);
-        const VmfProduct product = vmf_product(lobe, {normal, kCosineKappa});
-        mixture.peak[i] = lobes.weight[i] * vmf_peak(lobe.kappa) * product.scale;
-        mixture.lobes.set(i, product.lobe, mixture.peak[i] / vmf_peak(product.lobe.kappa));
-    }
-    const float sum = sum_by_halves(mixture.lobes.weight);
-    for (std::uint32_t i = 0; i < lobes.count(); ++i) {
-        mixture.lobes.weight[i] /= sum;
-        mixture.peak[i] /= sum;
-    }
+    for (std::uint32_t i = 0; i < lobes.count(); ++i) mixture.set(i, lobes.lobe(i), lobes.weight[i], normal);
+    mixture.normalize();
     return mixture;
 }
 

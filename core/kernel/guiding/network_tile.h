@@ -8,15 +8,16 @@
 
 namespace pl {
 
-/// kVertices: a power of 2; at most 8 to a lane.
-template <std::uint32_t kLanes, std::uint32_t kVertices>
+/// kOfTile, the number of vertices: a power of 2; at most 8 to a lane.
+template <std::uint32_t kLanes, std::uint32_t kOfTile>
 class NetworkTile {
-    static constexpr std::uint32_t kLaneVertices = kVertices < 8 ? kVertices : 8;
-    static constexpr std::uint32_t kUnitLanes = kLanes / (kVertices / kLaneVertices);
+    static constexpr std::uint32_t kLaneVertices = kOfTile < 8 ? kOfTile : 8;
+    static constexpr std::uint32_t kUnitLanes = kLanes / (kOfTile / kLaneVertices);
     /// From unit to unit. With 4 numbers more than needed, lanes that store adjacent units use different banks of shared memory.
-    static constexpr std::uint32_t kRow = kVertices > 1 ? kVertices + 4 : 1;
+    static constexpr std::uint32_t kRow = kOfTile > 1 ? kOfTile + 4 : 1;
 
 public:
+    static constexpr std::uint32_t kVertices = kOfTile;
     /// Floats of memory that the lanes share, aligned to 16 bytes.
     static constexpr std::uint32_t kMemory = kVertexHidden * kRow;
 
@@ -27,10 +28,8 @@ public:
     PL_HD void set_inputs(std::uint32_t vertex, const float* inputs) const {
         for (std::uint32_t i = 0; i < kConstantInput; ++i) memory_[i * kRow + vertex] = inputs[i];
     }
-    /// outputs: [kVertexOutputs].
-    PL_HD void get_outputs(std::uint32_t vertex, float* outputs) const {
-        for (std::uint32_t i = 0; i < kVertexOutputs; ++i) outputs[i] = memory_[i * kRow + vertex];
-    }
+    /// Of an output below kVertexOutputs.
+    PL_HD float output(std::uint32_t vertex, std::uint32_t number) const { return memory_[number * kRow + vertex]; }
 
     /// Outputs of all vertices from their inputs. weights: of kVertexLayout. All lanes must call it; they wait for each other in wait().
     template <class Wait>

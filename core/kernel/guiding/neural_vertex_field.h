@@ -9,61 +9,88 @@
 
 namespace pl {
 
-/// The volume that serves a vertex, and the mixture there in the frame of the world, which sampling and density share.
-struct NeuralVertexLocation : TableLocation {
-    VertexMixture mixture{};
-};
-
-struct NeuralVertexField : TableField {
-    using Location = NeuralVertexLocation;
-
-    /// None: drivers of many paths evaluate the network for many vertices at once, after locate(), which leaves them the mixture.
-    VertexEvaluator evaluate = nullptr;
-    Span<const float> weights;         ///< of kVertexLayout, the running means
-    Span<const std::uint32_t> counts;  ///< by NetworkCount
-    Vec3f corner{0.0f};                ///< lowest corner of the cube that the grids divide
-    float edge = 1.0f;                 ///< of the cube, above 0
+/// Tables, and the network that they teach.
+struct VertexNetworkField : TableField {
+    VertexEvaluator evaluate = nullptr;  ///< of the host
+    Span<const float> weights;           ///< of kVertexLayout, the running means
+    Span<const std::uint32_t> counts;    ///< by NetworkCount
+    Vec3f corner{0.0f};                  ///< lowest corner of the cube that the grids divide
+    float edge = 1.0f;                   ///< of the cube, above 0
 
     /// Directions are then sampled by the cosine alone.
     PL_HD bool is_lost() const { return counts[kNetworkIsLost] != 0; }
     PL_HD NetworkPoint point_of(Vec3f position, Vec3f normal) const { return {(position - corner) / edge, normal}; }
-    /// `evaluate` is set.
-    PL_HD VertexMixture mixture_at(Vec3f position, Vec3f normal) const {
-        if (is_lost()) return cosine_mixture(normal);
+    /// On the host.
+    VertexMixture mixture_at(Vec3f position, Vec3f normal) const {
+        VertexMixture mixture;
+        if (is_lost()) {
+            set_cosine(mixture, normal);
+            return mixture;
+        }
         float inputs[kInputs], outputs[kVertexColumns];
         fill_inputs(point_of(position, normal), weights.data, inputs);
         evaluate(weights.data, inputs, outputs);
-        return vertex_mixture(outputs, normal);
+        set_mixture(mixture, outputs, normal);
+        return mixture;
     }
+};
+
+/// The volume that serves a vertex, and the mixture there in the frame of the world, which sampling and density share.
+struct NeuralVertexLocation : TableLocation {
+    VertexMixture mixture;
+};
+
+/// Mixtures in the locations of vertices, where locate() evaluates the network.
+struct MixturesInLocations {
+    using Location = NeuralVertexLocation;
+    static constexpr bool kInLocation = true;
+
+    static Location locate(const VertexNetworkField& field, const TableLocation& place, const SurfacePoint& surface) {
+        return {place, field.mixture_at(surface.position, surface.shading_normal)};
+    }
+    static const VertexMixture& of(const Location& location) { return location.mixture; }
+};
+
+/// `Mixtures`: where the mixtures are.
+template <class Mixtures>
+struct NeuralVertexFieldOf : VertexNetworkField {
+    using Location = typename Mixtures::Location;
 
     PL_HD Location locate(const SurfacePoint& surface) const {
         const TableLocation place = TableField::locate(surface);
         if (!place.is_served()) return {};
-        if constexpr (!is_device_code()) {
-            if (evaluate != nullptr) return {place, mixture_at(surface.position, surface.shading_normal)};
-        }
-        return {place, {}};
+        return Mixtures::locate(*this, place, surface);
     }
     PL_HD Vec3f sample(const Location& location, const SurfacePoint&, const ScatterNumbers& numbers) const {
-        return location.mixture.sample({numbers.u.y, numbers.u.z});
+        return Mixtures::of(location).sample({numbers.u.y, numbers.u.z});
     }
     /// The bin is the cell of the volume, which the direction trains.
     PL_HD FieldDensity density(const Location& location, const SurfacePoint& surface, Vec3f wi) const {
-        return {location.mixture.pdf_sa(wi), cell_of(location, surface, wi)};
+        return {Mixtures::of(location).pdf_sa(wi), cell_of(location, surface, wi)};
     }
-    PL_HD void record(const TrainingSample<NeuralVertexField>& sample, bool learns_fraction) const {
+    PL_HD void record(const TrainingSample<NeuralVertexFieldOf>& sample, bool learns_fraction) const {
         TableField::record(of_table(sample), learns_fraction);
     }
-    PL_HD void add(const TrainingSample<NeuralVertexField>& sample, bool learns_fraction) const {
+    PL_HD void add(const TrainingSample<NeuralVertexFieldOf>& sample, bool learns_fraction) const {
         TableField::add(of_table(sample), learns_fraction);
     }
-    PL_HD void record_light(const LightSample<NeuralVertexField>& light) const { record_at_volume(*this, light); }
+    PL_HD void record_light(const LightSample<NeuralVertexFieldOf>& light) const { record_at_volume(*this, light); }
+
+    /// For branches of a path that wait at a vertex: its mixture, too, where that is not in the location.
+    PL_HD NeuralVertexLocation keep(const Location& location) const requires(!Mixtures::kInLocation) {
+        return {location, Mixtures::of(location)};
+    }
+    PL_HD Location restore(const NeuralVertexLocation& kept) const requires(!Mixtures::kInLocation) {
+        Mixtures::of(kept) = kept.mixture;
+        return kept;
+    }
 
 private:
-    static PL_HD TrainingSample<TableField> of_table(const TrainingSample<NeuralVertexField>& sample) {
+    static PL_HD TrainingSample<TableField> of_table(const TrainingSample<NeuralVertexFieldOf>& sample) {
         return {{sample.entry, sample.bsdf_ratio, sample.distance}, sample.target};
     }
 };
+using NeuralVertexField = NeuralVertexFieldOf<MixturesInLocations>;
 static_assert(RadianceField<NeuralVertexField>);
 
 }  // namespace pl

@@ -6,7 +6,7 @@
 
 namespace pl {
 
-using VertexMixture = LobeMixtureOf<kVertexLobes>;
+using VertexMixture = LobeMixtureOf<kVertexLobes, kVertexLobes>;
 
 /// Logarithms of concentrations: of an untrained network, and bounds. The widest lobe is uniform; the narrowest has the solid angle of
 /// one of 256 cells, of which its teacher knows no more than their mean.
@@ -17,44 +17,64 @@ inline constexpr float kMostNarrowness = 7.0f;
 /// Means of an untrained network: the normal and this far towards a corner of a cube, so that the lobes spread over the hemisphere.
 inline constexpr float kFirstSpread = 0.5f;
 
+/// The outputs for one lobe.
+struct LobeOutputs {
+    float logit;
+    Vec3f shift;  ///< of the vector whose direction is the mean
+    float narrowness;
+};
+/// value(number): an output of the network.
+template <class Value>
+PL_INLINE LobeOutputs outputs_by(const Value& value, std::uint32_t lobe) {
+    const auto output = [&](std::uint32_t parameter) { return value(parameter * kVertexLobes + lobe); };
+    return {output(kLobeLogit), {output(kLobeX), output(kLobeY), output(kLobeZ)}, output(kLobeNarrowness)};
+}
+PL_INLINE LobeOutputs outputs_of(const float* outputs, std::uint32_t lobe) {
+    return outputs_by([=](std::uint32_t number) { return outputs[number]; }, lobe);
+}
+
 /// The vector whose direction is the mean of a lobe.
-PL_INLINE Vec3f vertex_axis(const float* outputs, Vec3f normal, std::uint32_t lobe) {
-    const auto component = [&](std::uint32_t parameter, std::uint32_t bit) {
-        return outputs[parameter * kVertexLobes + lobe] + ((lobe >> bit & 1u) != 0 ? kFirstSpread : -kFirstSpread);
-    };
-    return {normal.x + component(kLobeX, 0), normal.y + component(kLobeY, 1), normal.z + component(kLobeZ, 2)};
+PL_INLINE Vec3f vertex_axis(Vec3f shift, Vec3f normal, std::uint32_t lobe) {
+    const auto spread = [&](std::uint32_t bit) { return (lobe >> bit & 1u) != 0 ? kFirstSpread : -kFirstSpread; };
+    return {normal.x + (shift.x + spread(0)), normal.y + (shift.y + spread(1)), normal.z + (shift.z + spread(2))};
 }
 
 /// A lobe of incident radiance in the world's frame.
-PL_INLINE VmfLobe vertex_lobe(const float* outputs, Vec3f normal, std::uint32_t lobe) {
-    const Vec3f axis = vertex_axis(outputs, normal, lobe);
+PL_INLINE VmfLobe vertex_lobe(const LobeOutputs& outputs, Vec3f normal, std::uint32_t lobe) {
+    const Vec3f axis = vertex_axis(outputs.shift, normal, lobe);
     const float length = glm::length(axis);
     const bool is_lost = !(length > 1.0e-6f);
     const float inverse = 1.0f / (is_lost ? 1.0f : length);
-    const float narrowness = kFirstNarrowness + outputs[kLobeNarrowness * kVertexLobes + lobe];
+    const float narrowness = kFirstNarrowness + outputs.narrowness;
     return {{is_lost ? normal.x : axis.x * inverse, is_lost ? normal.y : axis.y * inverse,
              is_lost ? normal.z : axis.z * inverse},
             exp_of(clamp_to(narrowness, kLeastNarrowness, kMostNarrowness))};
 }
 
-/// The mixture of the outputs times the cosine to the normal.
-PL_HD inline VertexMixture vertex_mixture(const float* outputs, Vec3f normal) {
-    const float* logits = outputs + kLobeLogit * kVertexLobes;
-    float most = logits[0];
-    for (std::uint32_t i = 1; i < kVertexLobes; ++i) most = max_of(most, logits[i]);
-    LobesOf<kVertexLobes> lobes;
-    lobes.used = kVertexLobes;
-    for (std::uint32_t i = 0; i < kVertexLobes; ++i)
-        lobes.set(i, vertex_lobe(outputs, normal, i), decay_of(most - logits[i]));
-    return times_cosine(lobes, normal);
+/// Sets the mixture of outputs times the cosine to the normal. outputs(lobe): its LobeOutputs, which may lie at its place in the
+/// mixture.
+template <class Outputs>
+PL_HD void set_mixture_by(VertexMixture& mixture, const Outputs& outputs, Vec3f normal) {
+    float most = outputs(0).logit;
+    for (std::uint32_t i = 1; i < kVertexLobes; ++i) most = max_of(most, outputs(i).logit);
+    mixture.lobes.used = kVertexLobes;
+    for (std::uint32_t i = 0; i < kVertexLobes; ++i) {
+        const LobeOutputs of_lobe = outputs(i);
+        mixture.set(i, vertex_lobe(of_lobe, normal, i), decay_of(most - of_lobe.logit), normal);
+    }
+    mixture.normalize();
+}
+/// outputs: [kVertexColumns].
+PL_HD inline void set_mixture(VertexMixture& mixture, const float* outputs, Vec3f normal) {
+    set_mixture_by(
+        mixture, [=](std::uint32_t lobe) { return outputs_of(outputs, lobe); }, normal);
 }
 
-/// The cosine alone, by the lobe that stands for it.
-PL_HD inline VertexMixture cosine_mixture(Vec3f normal) {
-    LobesOf<kVertexLobes> lobes;
-    lobes.used = 1;
-    for (std::uint32_t i = 0; i < lobes.count(); ++i) lobes.set(i, {normal, 0.0f}, i == 0 ? 1.0f : 0.0f);
-    return times_cosine(lobes, normal);
+/// Sets the mixture of the cosine alone, by the lobe that stands for it.
+PL_HD inline void set_cosine(VertexMixture& mixture, Vec3f normal) {
+    mixture.lobes.used = 1;
+    for (std::uint32_t i = 0; i < kVertexLobes; ++i) mixture.set(i, {normal, 0.0f}, i == 0 ? 1.0f : 0.0f, normal);
+    mixture.normalize();
 }
 
 }  // namespace pl

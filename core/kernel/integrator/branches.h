@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <utility>
 
 #include "core/kernel/geometry/ray.h"
 #include "core/kernel/methods/method.h"
@@ -17,7 +18,25 @@ inline constexpr std::uint32_t kMostForks = 4;
 inline constexpr std::uint32_t kBranchShift = 17;
 static_assert((kMostBranches << kBranchShift) < (1u << 24));
 
-/// A vertex with branches waiting to be scattered.
+/// The data of a vertex while branches wait there: other data where a field keeps part of it elsewhere, until the next vertex.
+template <class M>
+PL_HD auto keep_vertex([[maybe_unused]] const M& method, const typename M::Vertex& vertex) {
+    if constexpr (requires { method.field.keep(vertex); })
+        return method.field.keep(vertex);
+    else
+        return vertex;
+}
+template <class M>
+using KeptVertex = decltype(keep_vertex(std::declval<const M&>(), std::declval<const typename M::Vertex&>()));
+template <class M>
+PL_HD typename M::Vertex restore_vertex([[maybe_unused]] const M& method, const KeptVertex<M>& kept) {
+    if constexpr (requires { method.field.restore(kept); })
+        return method.field.restore(kept);
+    else
+        return kept;
+}
+
+/// A vertex with branches waiting to be scattered. Vertex: a KeptVertex.
 template <class Vertex>
 struct Fork {
     Vec3f wo;
@@ -59,7 +78,7 @@ struct Branches {
 template <class M>
 struct BranchesOf {};
 template <SplittingMethod M>
-struct BranchesOf<M> : Branches<typename M::Vertex> {};
+struct BranchesOf<M> : Branches<KeptVertex<M>> {};
 
 /// Memory of a path outside of its state, which its driver provides: for the method's Store, and for forks.
 template <class M>
@@ -69,7 +88,7 @@ struct PathStore {
 template <SplittingMethod M>
 struct PathStore<M> {
     [[no_unique_address]] typename M::Store method;
-    Fork<typename M::Vertex> forks[kMostForks];
+    Fork<KeptVertex<M>> forks[kMostForks];
 };
 
 }  // namespace pl

@@ -163,7 +163,7 @@ PL_HD_INLINED PathStatus continue_path(const PathContext<M>& context, const Hit&
     if constexpr (SplittingMethod<M>) {
         if (next.branches > 1)
             state.branches.wait({-state.ray.direction, hit, state.throughput, state.survival, state.vertices,
-                                 next.branches - 1, from.vertex});
+                                 next.branches - 1, keep_vertex(context.method, from.vertex)});
     }
     return PathStatus::Continues;
 }
@@ -212,7 +212,7 @@ PL_HD inline void connect_light(const M& method, const ShadowRequest<M>& shadow,
 /// Scatters the next waiting branch. It starts with an empty Memory, and without a light sample of its own.
 template <FeatureSet F, SplittingMethod M>
 PL_HD_INLINED PathStatus begin_branch(const PathContext<M>& context, PathState<F, M>& state, PathCounters& counters) {
-    const Fork<typename M::Vertex> fork = state.branches.begin();
+    const Fork<KeptVertex<M>> fork = state.branches.begin();
     state.throughput = fork.throughput;
     state.survival = fork.survival;
     state.vertices = fork.vertices;
@@ -224,7 +224,7 @@ PL_HD_INLINED PathStatus begin_branch(const PathContext<M>& context, PathState<F
     const Rng rng = path_rng(context.settings, state.pixel, state.sample);
     const Vec4f u = rng.draw(state.draw_index(), Purpose::Scatter);
     typename M::Sample none{};
-    return scatter<F, M>(context.method, {surface, bsdf, fork.vertex},
+    return scatter<F, M>(context.method, {surface, bsdf, restore_vertex(context.method, fork.vertex)},
                          {.rng = rng, .index = state.draw_index(), .u = u}, state, {none, counters});
 }
 

@@ -105,10 +105,14 @@ PL_HD constexpr auto members(TableField& v) {
     static_assert(member_count<TableField>() == 1);
     return std::tie(base_of<TableView>(v));
 }
-PL_HD constexpr auto members(NeuralVertexField& v) {
+PL_HD constexpr auto members(VertexNetworkField& v) {
     const auto all = std::tie(base_of<TableField>(v), v.evaluate, v.weights, v.counts, v.corner, v.edge);
-    static_assert(std::tuple_size_v<decltype(all)> == member_count<NeuralVertexField>());
+    static_assert(std::tuple_size_v<decltype(all)> == member_count<VertexNetworkField>());
     return all;
+}
+PL_HD constexpr auto members(cuda::ThreadVertexField& v) {
+    static_assert(member_count<cuda::ThreadVertexField>() == 1);
+    return std::tie(base_of<VertexNetworkField>(v));
 }
 PL_HD constexpr auto members(TableUpdateView& v) {
     const auto all = std::tie(base_of<TableArrays<Span, Span>>(v), v.cells, v.light_clusters, v.radiance_unit,
@@ -171,7 +175,7 @@ PL_HD inline void walk_parameters(Sink& sink, void (*)(Parameters...)) {
 template <class Sink, int kEntry = 0>
 PL_HD inline void walk_kernels(Sink& sink) {
     if constexpr (kEntry < MethodList::kCount) {
-        walk_parameters(sink, cuda::PictureKernel<cuda::IntegratorAt<kEntry>>{});
+        walk_parameters(sink, cuda::PictureKernel<cuda::KernelMethodAt<kEntry>>{});
         walk_kernels<Sink, kEntry + 1>(sink);
     } else {
         walk_parameters(sink, cuda::ProbeKernel{});
