@@ -1,10 +1,13 @@
-// Option values that are one of several words.
+// Option values that are one of several words, or some of them.
 #pragma once
 
 #include <string>
 #include <vector>
 
 namespace pl {
+
+/// The items of "a,b,c".
+std::vector<std::string> split_at_commas(const std::string& text);
 
 /// "a, b or c"
 std::string one_of(const std::vector<std::string>& names);

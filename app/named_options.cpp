@@ -2,6 +2,9 @@
 #include <algorithm>
 #include <array>
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include "app/choices.h"
 #include "app/option_parsers.h"
 
@@ -75,6 +78,14 @@ void parse_lookup(Options& options, const std::string& text) {
 void parse_representation(Options& options, const std::string& text) {
     parse_named(options.render.field.representation, kRepresentations, text);
 }
+void parse_representations(Options& options, const std::string& text) {
+    options.fields.clear();
+    for (const std::string& name : split_at_commas(text)) {
+        Representation field{};
+        parse_named(field, kRepresentations, name);
+        if (std::ranges::find(options.fields, field) == options.fields.end()) options.fields.push_back(field);
+    }
+}
 void parse_iterations(Options& options, const std::string& text) {
     parse_named(options.render.field.iterations, kIterations, text);
 }
@@ -102,6 +113,12 @@ void parse_frame_kind(Options& options, const std::string& text) {
 std::string_view tone_curve_name(ToneCurve curve) { return name_in(kCurves, curve); }
 
 std::string_view name_of(Representation representation) { return name_in(kRepresentations, representation); }
+std::string print_representations(const Options& options) {
+    if (options.fields.empty()) return std::string(name_of(options.render.field.representation));
+    std::vector<std::string_view> names;
+    for (const Representation field : options.fields) names.push_back(name_of(field));
+    return fmt::format("{}", fmt::join(names, ","));
+}
 std::string_view name_of(Iterations iterations) { return name_in(kIterations, iterations); }
 std::string_view name_of(LearningRate rate) { return name_in(kRates, rate); }
 std::string_view name_of(LearningTarget target) { return name_in(kTargets, target); }

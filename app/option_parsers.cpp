@@ -18,16 +18,6 @@ namespace {
 
 constexpr std::array<std::string_view, 3> kBackends{"auto", "cpu", "cuda"};
 
-std::vector<std::string> split_at_commas(const std::string& text) {
-    std::vector<std::string> items;
-    for (std::size_t start = 0; start <= text.size();) {
-        const std::size_t end = std::min(text.find(',', start), text.size());
-        items.push_back(text.substr(start, end - start));
-        start = end + 1;
-    }
-    return items;
-}
-
 std::vector<std::string> method_names() {
     return names_in(all_methods(), [](const MethodInfo& info) { return info.name; });
 }

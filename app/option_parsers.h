@@ -37,6 +37,9 @@ void parse_remember(Options& options, const std::string& text);
 void parse_picture_size(Options& options, const std::string& text);
 void parse_lookup(Options& options, const std::string& text);
 void parse_representation(Options& options, const std::string& text);
+/// "NAME,NAME...".
+void parse_representations(Options& options, const std::string& text);
+std::string print_representations(const Options& options);
 void parse_iterations(Options& options, const std::string& text);
 void parse_learning_rate(Options& options, const std::string& text);
 void parse_learn_target(Options& options, const std::string& text);

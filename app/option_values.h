@@ -66,6 +66,7 @@ struct Options {
     ImageKind frame_kind = ImageKind::Png;  ///< replay
 
     std::vector<MethodId> methods;       ///< bench: all to compare; empty: every one
+    std::vector<Representation> fields;  ///< bench: all to compare; empty: that of each scene's settings
     std::vector<std::string> backends;   ///< bench: empty: all that are available
     int seeds = 10;                      ///< bench: runs of each method, back end and scene
     std::uint32_t reference_spp = 4096;  ///< bench: samples per pixel in each half of references that it makes

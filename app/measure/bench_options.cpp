@@ -8,6 +8,7 @@
 #include "app/make_backend.h"
 #include "app/open_scene.h"
 #include "core/base/error.h"
+#include "core/fields/field_shape.h"
 
 namespace pl {
 namespace {
@@ -52,19 +53,40 @@ std::vector<BenchScene> open_scenes(const CommandLine& line, Console& console) {
     return scenes;
 }
 
+/// Of several representations, each method that learns has one after the other.
+std::vector<BenchMethod> bench_methods(const Options& options) {
+    std::vector<MethodId> ids = options.methods;
+    if (ids.empty())
+        for (const MethodInfo& info : all_methods()) ids.push_back(info.id);
+    std::vector<BenchMethod> methods;
+    for (const MethodId id : ids) {
+        const MethodInfo& info = info_of(id);
+        if (!info.learns || options.fields.empty()) {
+            methods.push_back({.name = std::string(info.name), .method = id});
+            continue;
+        }
+        for (const Representation field : options.fields)
+            methods.push_back({.name = options.fields.size() == 1 ? std::string(info.name)
+                                                                  : fmt::format("{}-{}", info.name, name_of(field)),
+                               .method = id,
+                               .representation = field});
+    }
+    return methods;
+}
+
 }  // namespace
 
 BenchPlan make_bench_plan(const CommandLine& line, Console& console) {
     BenchPlan plan{.scenes = open_scenes(line, console),
-                   .methods = line.options.methods,
+                   .methods = bench_methods(line.options),
                    .backend_names = line.options.backends,
                    .backends = {},
                    .first_seed = line.options.render.seed,
                    .seeds = line.options.seeds};
-    if (plan.methods.empty())
-        for (const MethodInfo& info : all_methods()) plan.methods.push_back(info.id);
-    const bool is_on_cpu = std::ranges::any_of(plan.scenes, [](const BenchScene& scene) {
-        return scene.settings.field.representation != Representation::Table;
+    const bool is_on_cpu = std::ranges::any_of(plan.scenes, [&](const BenchScene& scene) {
+        return std::ranges::any_of(plan.methods, [&](const BenchMethod& method) {
+            return !has_tables(method.settings(scene.settings).field.representation);
+        });
     });
     if (plan.backend_names.empty())
         plan.backend_names = is_on_cpu ? std::vector<std::string>{"cpu"} : available_backends();

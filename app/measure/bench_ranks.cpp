@@ -27,7 +27,7 @@ struct Reply {
 
 std::string message_of(const PlannedRun& run) {
     return Json{{"scene", run.scene},
-                {"method", info_of(run.method).name},
+                {"method", run.method},
                 {"backend", run.backend},
                 {"seed", run.seed},
                 {"warm_up", run.warm_up}}
@@ -37,7 +37,7 @@ std::string message_of(const PlannedRun& run) {
 PlannedRun planned_from(const std::string& text) {
     const Json json = Json::parse(text);
     return {.scene = json.at("scene"),
-            .method = method_by_name(json.at("method").get<std::string>()).value(),
+            .method = json.at("method"),
             .backend = json.at("backend"),
             .seed = json.at("seed"),
             .warm_up = json.at("warm_up")};

@@ -66,6 +66,10 @@ constexpr auto kComparisonOptions = std::to_array<OptionSpec>({
      .help = "Methods to compare, separated by commas (default: all); the first one is the baseline of the "
              "others",
      .commands = CommandSet(Command::Bench), .parse = parse_methods},
+    {.name = "field", .flags = "--field", .value = "NAME,..", .group = kCompared,
+     .help = "Representations of what reinforcement learns to compare: table, sd-tree, lobes, neural, neural-vertex (default: that "
+             "of each scene's settings)",
+     .commands = CommandSet(Command::Bench), .parse = parse_representations, .print = print_representations},
     {.name = "backend", .flags = "--backend", .value = "NAME,..", .group = kCompared,
      .help = "Back ends to compare: cpu, cuda (default: all that are available)",
      .commands = CommandSet(Command::Bench), .parse = parse_backends},

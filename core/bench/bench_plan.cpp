@@ -20,11 +20,17 @@ Json scene_json(const BenchScene& scene) {
 
 }  // namespace
 
+RenderSettings BenchMethod::settings(RenderSettings of_scene) const {
+    of_scene.method = method;
+    if (representation) of_scene.field.representation = *representation;
+    return of_scene;
+}
+
 std::vector<PlannedRun> BenchPlan::shuffled_block(int block) const {
     const auto number = static_cast<std::uint64_t>(block);
     std::vector<PlannedRun> runs;
     for (std::size_t scene = 0; scene < scenes.size(); ++scene)
-        for (const MethodId method : methods)
+        for (std::size_t method = 0; method < methods.size(); ++method)
             for (const std::string& backend : backend_names)
                 runs.push_back({scene, method, backend, first_seed + number, false});
     std::mt19937_64 generator(kOrderSeed + number);
@@ -33,14 +39,14 @@ std::vector<PlannedRun> BenchPlan::shuffled_block(int block) const {
 }
 
 BenchCell BenchPlan::cell_of(const PlannedRun& run) const {
-    return {scenes[run.scene].name, std::string(info_of(run.method).name), run.backend};
+    return {scenes[run.scene].name, methods[run.method].name, run.backend};
 }
 
 Json BenchPlan::json() const {
     Json scene_list = Json::array();
     for (const BenchScene& scene : scenes) scene_list.push_back(scene_json(scene));
     Json method_list = Json::array();
-    for (const MethodId method : methods) method_list.push_back(info_of(method).name);
+    for (const BenchMethod& method : methods) method_list.push_back(method.name);
     Json devices = Json::object();
     for (const std::string& name : backend_names) {
         const BackendInfo info = backends.at(name)->info();

@@ -3,6 +3,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,9 +26,18 @@ struct BenchScene {
     std::shared_ptr<const Reference> reference;  ///< null until found or made
 };
 
+/// A compared method: with a representation of its own if several are compared, else with that of the scene's settings.
+struct BenchMethod {
+    std::string name;
+    MethodId method = MethodId::Default;
+    std::optional<Representation> representation{};
+
+    RenderSettings settings(RenderSettings of_scene) const;
+};
+
 struct PlannedRun {
     std::size_t scene = 0;
-    MethodId method = MethodId::Default;
+    std::size_t method = 0;
     std::string backend;
     std::uint64_t seed = 1;
     bool warm_up = false;
@@ -35,7 +45,7 @@ struct PlannedRun {
 
 struct BenchPlan {
     std::vector<BenchScene> scenes;
-    std::vector<MethodId> methods;  ///< the first one is the baseline of the others
+    std::vector<BenchMethod> methods;  ///< the first one is the baseline of the others
     std::vector<std::string> backend_names;
     std::map<std::string, std::shared_ptr<RenderBackend>> backends;
     std::uint64_t first_seed = 1;

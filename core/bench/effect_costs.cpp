@@ -40,7 +40,7 @@ public:
     bool measure() {
         for (std::size_t scene = 0; scene < plan_.scenes.size(); ++scene)
             for (const std::string& backend : plan_.backend_names)
-                for (const MethodId method : plan_.methods)
+                for (std::size_t method = 0; method < plan_.methods.size(); ++method)
                     if (!measure_cell({.scene = scene, .method = method, .backend = backend})) return false;
         return true;
     }
@@ -64,8 +64,7 @@ private:
     /// The needed kernel first.
     std::vector<Candidate> candidates_for(const PlannedRun& cell) const {
         const BenchScene& scene = plan_.scenes[cell.scene];
-        RenderSettings settings = scene.settings;
-        settings.method = cell.method;
+        RenderSettings settings = plan_.methods[cell.method].settings(scene.settings);
         settings.forced_effects = {};
         // A back end of its own for each, and so pictures and fields of its own.
         const auto make = [&] { return Session(make_(cell.backend), scene.description, settings); };

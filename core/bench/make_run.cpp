@@ -13,8 +13,7 @@ std::optional<FinishedRun> make_run(const BenchPlan& plan, const PlannedRun& pla
                                  .device = info.device,
                                  .threads = info.threads,
                                  .series = {}}};
-    RenderSettings settings = scene.settings;
-    settings.method = planned.method;
+    RenderSettings settings = plan.methods[planned.method].settings(scene.settings);
     settings.seed = planned.seed;
     Session session(backend, scene.description, settings, scene.load_seconds);
     RunObserver observer{.on_point = {}, .on_work = on_work};

@@ -136,8 +136,11 @@ void measure_fields(const std::shared_ptr<const SceneDescription>& scene, Size s
          {std::pair{"table", Representation::Table}, std::pair{"neural", Representation::Neural},
           std::pair{"neural-vertex", Representation::NeuralVertex}})
         for (const bool next_event : {false, true}) {
-            Row row{.scene = "cornell", .label = label, .method = MethodId::Reinforcement, .next_event = next_event};
-            row.size = size;
+            Row row{.scene = "cornell",
+                    .label = label,
+                    .method = MethodId::Reinforcement,
+                    .next_event = next_event,
+                    .size = size};
             row.field.representation = representation;
             measure(scene, row, seconds);
         }

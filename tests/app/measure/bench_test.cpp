@@ -245,6 +245,23 @@ TEST_CASE("5: the gate fails only when the whole interval is slower") {
     CHECK(gated(folder / "none.json").code == 3);
 }
 
+TEST_CASE("a bench compares representations as methods of their own") {
+    const TempDir folder;
+    make(folder / "b", {"--method", "default,reinforcement", "--field", "table,neural-vertex", "--nee", "off"});
+    const json results = results_in(folder / "b");
+    std::vector<std::string> methods;
+    for (const json& row : results.at("summary")) methods.push_back(row.at("method"));
+    CHECK((methods == std::vector<std::string>{"default", "reinforcement-table", "reinforcement-neural-vertex"}));
+    CHECK(results.at("comparisons").size() == 2);
+    const auto errors = errors_in(folder / "b");
+    CHECK(errors.at({"reinforcement-table", 1}) != errors.at({"reinforcement-neural-vertex", 1}));
+    // One representation, and the table without any.
+    make(folder / "c", {"--method", "reinforcement", "--field", "neural-vertex", "--nee", "off"});
+    CHECK(errors_in(folder / "c").at({"reinforcement", 1}) == errors.at({"reinforcement-neural-vertex", 1}));
+    make(folder / "d", {"--method", "reinforcement", "--nee", "off"});
+    CHECK(errors_in(folder / "d").at({"reinforcement", 1}) == errors.at({"reinforcement-table", 1}));
+}
+
 TEST_CASE("2: what bench does not understand") {
     const TempDir folder;
     check_refused(2, {"bench", "-o", folder / "b"}, "'bench' needs a SCENE");
@@ -252,6 +269,7 @@ TEST_CASE("2: what bench does not understand") {
     check_refused(2, {"bench", "cornell", "cornell", "-o", folder / "b"}, "'cornell' twice");
     check_refused(2, bench(folder / "b", {"--method", "default,fast"}), "nearest:");
     check_refused(2, bench(folder / "b", {"--backend", "cpu,auto"}), "--backend: expected");
+    check_refused(2, bench(folder / "b", {"--field", "table,trees"}), "nearest:");
     check_refused(2, bench(folder / "b", {"--seeds", "0"}), "--seeds: expected");
     check_refused(3, {"bench", "cornell", "nowhere", "-o", folder / "b"}, "nowhere");
     CHECK(folder.names().empty());
