@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "core/fields/field_kernels.h"
 #include "core/fields/lobe_update.h"
 #include "core/fields/sd_tree_update.h"
 #include "core/kernel/inspect/heat_map.h"
@@ -30,17 +31,10 @@ namespace {
 /// The kernels of a method for the representation of its field.
 const PassKernels<PicturePass>& kernels_for(const PassRequest& request, const AnyFieldView& field) {
     const PassKernels<PicturePass>* kernels = nullptr;
-    const bool samples_lights = request.path.next_event != 0;
-    const auto take_kernel = [&]<int kEntry>() { kernels = &picture_kernels<kEntry>(); };
-    const auto take_host_kernel = [&]<int kEntry>() { kernels = &host_picture_kernels<kEntry>(); };
-    if (std::holds_alternative<SdTreeField>(field))
-        with_host_kernel<SdTreeField>(request.kernel_method(), request.learning, samples_lights, take_host_kernel);
-    else if (std::holds_alternative<LobeField>(field))
-        with_host_kernel<LobeField>(request.kernel_method(), request.learning, samples_lights, take_host_kernel);
-    else if (std::holds_alternative<NeuralVertexField>(field))
-        with_method_kernel<NeuralVertexField>(request.kernel_method(), request.learning, samples_lights, take_kernel);
-    else
-        with_method_kernel(request.kernel_method(), request.learning, samples_lights, take_kernel);
+    with_kernel_of(
+        sampled_representation(field), request.kernel_method(), request.learning, request.path.next_event != 0,
+        [&]<int kEntry>() { kernels = &picture_kernels<kEntry>(); },
+        [&]<int kEntry>() { kernels = &host_picture_kernels<kEntry>(); });
     if (kernels == nullptr) throw Error(ErrorKind::Runtime, "CPU back end: this method has no kernels");
     return *kernels;
 }

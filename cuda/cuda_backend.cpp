@@ -3,6 +3,7 @@
 #include <array>
 #include <optional>
 
+#include "core/fields/field_kernels.h"
 #include "core/kernel/integrator/sampled_lights.h"
 #include "core/session/exact_backend.h"
 #include "cuda/availability.h"
@@ -117,12 +118,9 @@ void CudaBackend::launch_picture(const PassRequest& request, const PixelPaths& p
         launch_paths(picture_kernels<kEntry>()[covering_set(request.features)], request.path, to_kernel(method),
                      pixels);
     };
-    const bool samples_lights = request.path.next_event != 0;
-    if (std::holds_alternative<NeuralVertexField>(field))
-        with_method_kernel<NeuralVertexField>(request.kernel_method(), request.learning, samples_lights,
-                                              launch_kernel);
-    else
-        with_method_kernel(request.kernel_method(), request.learning, samples_lights, launch_kernel);
+    // Representations of the host alone are refused when their field is uploaded.
+    with_kernel_of(sampled_representation(field), request.kernel_method(), request.learning,
+                   request.path.next_event != 0, launch_kernel, []<int>() {});
 }
 
 void CudaBackend::launch_view(const PassRequest& request, const ViewContext& context, PathRange range) {

@@ -4,7 +4,7 @@
 #include <fmt/ranges.h>
 
 #include "core/base/kernel_row.h"
-#include "core/kernel/methods/host_method_list.h"
+#include "core/fields/field_kernels.h"
 #include "core/scene/needed_effects.h"
 
 namespace pl {
@@ -13,20 +13,10 @@ namespace {
 KernelRange range_of(const RenderSettings& settings) {
     if (settings.view != View::Beauty) return kViewRange;
     KernelRange range = KernelRange::Full;
-    const auto is_served_by = [&]<class Field>() {
-        return with_host_kernel<Field>(
-            settings.method, settings.field.learning, settings.next_event,
-            [&]<int kEntry>() { range = TypeAt<kEntry, HostMethodList>::Integrator::kKernelRange; });
-    };
-    const auto take_range = [&]<int kEntry>() { range = TypeAt<kEntry, MethodList>::Integrator::kKernelRange; };
-    const Representation representation = settings.field.representation;
-    if (representation == Representation::SdTree && is_served_by.template operator()<SdTreeField>()) return range;
-    if (representation == Representation::Lobes && is_served_by.template operator()<LobeField>()) return range;
-    if (representation == Representation::NeuralVertex)
-        with_method_kernel<NeuralVertexField>(settings.method, settings.field.learning, settings.next_event,
-                                              take_range);
-    else
-        with_method_kernel(settings.method, settings.field.learning, settings.next_event, take_range);
+    with_kernel_of(
+        settings.field.representation, settings.method, settings.field.learning, settings.next_event,
+        [&]<int kEntry>() { range = TypeAt<kEntry, MethodList>::Integrator::kKernelRange; },
+        [&]<int kEntry>() { range = TypeAt<kEntry, HostMethodList>::Integrator::kKernelRange; });
     return range;
 }
 
