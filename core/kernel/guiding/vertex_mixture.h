@@ -58,10 +58,13 @@ PL_HD void set_mixture_by(VertexMixture& mixture, const Outputs& outputs, Vec3f 
     float most = outputs(0).logit;
     for (std::uint32_t i = 1; i < kVertexLobes; ++i) most = max_of(most, outputs(i).logit);
     mixture.lobes.used = kVertexLobes;
+    // Two loops: compilers make vectors of both, but not of one.
+    LobesOf<kVertexLobes, kVertexLobes>& lobes = mixture.lobes;
     for (std::uint32_t i = 0; i < kVertexLobes; ++i) {
         const LobeOutputs of_lobe = outputs(i);
-        mixture.set(i, vertex_lobe(of_lobe, normal, i), decay_of(most - of_lobe.logit), normal);
+        lobes.set(i, vertex_lobe(of_lobe, normal, i), decay_of(most - of_lobe.logit));
     }
+    for (std::uint32_t i = 0; i < kVertexLobes; ++i) mixture.set(i, lobes.lobe(i), lobes.weight[i], normal);
     mixture.normalize();
 }
 /// outputs: [kVertexColumns].
