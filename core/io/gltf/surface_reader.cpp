@@ -323,6 +323,7 @@ private:
         if (!stretch_facets(scene_, strength_, material)) note(kWidestFacets);
         if (surface_.uv.rotation != 0.0f) note("images that are turned turn the direction of anisotropy, too");
         material.rotation_deg += turn_deg_;
+        surface_.is_anisotropic = true;
         return material;
     }
 

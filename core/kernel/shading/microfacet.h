@@ -29,7 +29,7 @@ struct GgxOf {
         const float t = (m.x * m.x + width.widened2(m.y * m.y)) / (width.x() * width.x()) + m.z * m.z;
         return kInvPi / (width.product() * t * t);
     }
-    /// Smith's Lambda of a direction on either side.   [Heitz 2014, eqs. 72, 80]
+    /// Smith's Lambda of a direction on either side.   [Heitz 2014, eqs. 72, 86]
     PL_HD float lambda(Vec3f w) const {
         const float slope2 = (w.x * w.x + width.narrowed2(w.y * w.y)) / (w.z * w.z);
         return 0.5f * (std::sqrt(1.0f + width.x() * width.x() * slope2) - 1.0f);

@@ -203,6 +203,10 @@ TEST_CASE("gltf materials: anisotropy of metals") {
     bare.triangle(brushed);
     bare.root["meshes"][0]["primitives"][0]["attributes"].erase("TEXCOORD_0");
     CHECK(is_told(load(bare), "1 triangles are anisotropic but have no texture coordinates"));
+    CHECK_FALSE(is_told(load(bare), "tangents"));
+    const auto tangents = bare.numbers(std::vector<float>(12, 1.0f), 5126, "VEC4", 3);
+    bare.root["meshes"][0]["primitives"][0]["attributes"]["TANGENT"] = tangents;
+    CHECK(is_told(load(bare), "tangents are left out: texture coordinates decide the direction of anisotropy"));
     brushed["pbrMetallicRoughness"] = {{"metallicFactor", 0.25}, {"roughnessFactor", 0.5}};
     const SceneDescription blend = load(brushed);
     REQUIRE(blend.materials.size() == 2);
