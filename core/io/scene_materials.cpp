@@ -299,7 +299,7 @@ Json material_json(const MaterialDescription& material) {
               {"transmission", vector_json(material.transmission)},
               {"opacity", material.opacity},
               {"opacity_rule", kOpacityRuleNames[static_cast<std::size_t>(material.opacity_rule)]}};
-    if (material.anisotropy != 0.0f) {
+    if (material.kind == SurfaceKind::Conductor) {
         json["anisotropy"] = material.anisotropy;
         json["rotation_deg"] = material.rotation_deg;
     }

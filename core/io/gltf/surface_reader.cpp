@@ -131,10 +131,11 @@ private:
     void read_anisotropy() {
         const std::string at = extension("anisotropy");
         strength_ = share(at + "/anisotropyStrength", 0.0f);
-        if (strength_ == 0.0f || metalness_.most == 0.0f) return;
+        if (strength_ == 0.0f) return;
         turn_deg_ = glm::degrees(json_.number(at + "/anisotropyRotation").value_or(0.0f));
         if (metalness_.least < 1.0f) note("anisotropy of other surfaces than metals is left out");
-        if (roughness_image_ != kNoTexture) note("anisotropy with an image of roughness is that of its mean");
+        if (metalness_.most > 0.0f && roughness_image_ != kNoTexture)
+            note("anisotropy with an image of roughness is that of its mean");
     }
 
     /// The amount and color of the reflection of dielectrics. [KHR_materials_specular]

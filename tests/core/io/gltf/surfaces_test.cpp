@@ -213,6 +213,8 @@ TEST_CASE("gltf materials: anisotropy of metals") {
     CHECK(blend.materials[0].anisotropy == 0.0f);
     CHECK(blend.materials[1].anisotropy == Approx(0.75));
     CHECK(is_told(blend, "anisotropy of other surfaces than metals is left out"));
+    const SceneDescription plastic = load(extended("anisotropy", {{"anisotropyStrength", 0.5}}));
+    CHECK(is_told(plastic, "anisotropy of other surfaces than metals is left out"));
     extension["anisotropyStrength"] = 2;
     CHECK(is_told(load(brushed), "a number out of the range of the format is moved into it"));
     extension["anisotropyStrength"] = 0;
