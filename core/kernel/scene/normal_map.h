@@ -32,8 +32,7 @@ PL_HD inline TextureAxis texture_axis(const SceneView& scene, std::uint32_t prim
 /// Axes along u and to its left around a unit normal.
 struct TangentFrame {
     Frame frame{};
-    float side =
-        0.0f;  ///< 1: v is to the left of u; -1: the image is mirrored; 0: u does not differ between the corners
+    float side = 0.0f;  ///< TextureAxis::side; 0: u does not differ between the corners
 };
 PL_HD inline TangentFrame tangent_frame(const TextureAxis& axis, Vec3f normal) {
     const Vec3f tangent = axis.u - glm::dot(axis.u, normal) * normal;
