@@ -37,6 +37,12 @@ std::string finish_text(float roughness) {
     return roughness == 0.0f ? "smooth" : fmt::format("roughness {}", print_float(roughness));
 }
 
+std::string grain_text(const MaterialDescription& material) {
+    if (!material.is_anisotropic()) return "";
+    return fmt::format(", anisotropy {} at {} degrees", print_float(material.anisotropy),
+                       print_float(material.rotation_deg));
+}
+
 std::string opacity_text(const MaterialDescription& material) {
     return material.opacity < 1.0f ? fmt::format(", opacity {}", print_float(material.opacity)) : "";
 }
@@ -53,8 +59,8 @@ std::string surface_text(const MaterialDescription& material) {
     switch (material.kind) {
     case SurfaceKind::Diffuse: break;
     case SurfaceKind::Conductor:
-        return fmt::format("metal, reflects {}, {}", print_vector(material.specular),
-                           finish_text(material.roughness));
+        return fmt::format("metal, reflects {}, {}{}", print_vector(material.specular),
+                           finish_text(material.roughness), grain_text(material));
     case SurfaceKind::Dielectric:
         return fmt::format(
             "glass of ior {}, transmits {}, {}{}", print_float(material.ior), print_vector(material.transmission),

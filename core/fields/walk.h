@@ -15,7 +15,7 @@ inline constexpr std::uint32_t kWalkChunk = 256;
 inline constexpr std::uint32_t kLightWalk = 0;
 inline constexpr std::uint32_t kCameraWalk = 1;
 
-/// Effects of the BSDFs that walks sample: colors do not matter to them.
+/// Effects of the BSDFs that walks sample: neither colors nor the direction of facets matter to them.
 inline constexpr FeatureSet kWalkEffects = kLobeFeatures.with(Feature::Blends);
 
 /// The direction in which a walk leaves a surface; black if it ends there. u in [0,1)^4.

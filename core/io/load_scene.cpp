@@ -90,17 +90,28 @@ void see_to_light(const fs::path& path, const LoadSettings& asked, SceneDescript
                                                : ": the picture is black (--default-light on: a sky with a sun)"));
 }
 
-/// Without texture coordinates a triangle shows a single point of the image.
+/// Number of triangles without texture coordinates that show a material for which a predicate is true.
+template <class Predicate>
+auto count_without_uvs(const SceneDescription& scene, Predicate&& predicate) {
+    return std::ranges::count_if(scene.triangles, [&](const TriangleDescription& t) {
+        return t.uv.x == TriangleDescription::kNoUv && any_shown(scene.materials, t.material, predicate);
+    });
+}
+
+/// Without texture coordinates a triangle shows a single point of the image, and facets have no direction of their own.
 void warn_of_missing_uvs(SceneDescription& scene) {
-    const auto lacks = [&](const TriangleDescription& t) {
-        return t.uv.x == TriangleDescription::kNoUv &&
-               any_shown(scene.materials, t.material, [](const auto& material) { return material.textures.any(); });
-    };
-    const auto count = std::count_if(scene.triangles.begin(), scene.triangles.end(), lacks);
+    const auto count = count_without_uvs(scene, [](const auto& material) { return material.textures.any(); });
     if (count > 0) {
         scene.warnings.push_back(fmt::format("{}: {} triangles have a texture but no texture coordinates: they show "
                                              "the point (0, 0) of it",
                                              scene.source.string(), count));
+    }
+    const auto undirected = count_without_uvs(scene, [](const auto& material) { return material.is_anisotropic(); });
+    if (undirected > 0) {
+        scene.warnings.push_back(
+            fmt::format("{}: {} triangles are anisotropic but have no texture coordinates: their "
+                        "normals alone decide the direction",
+                        scene.source.string(), undirected));
     }
 }
 

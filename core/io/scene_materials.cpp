@@ -84,6 +84,8 @@ void read_surface(const JsonDocument& file, const std::string& at, MaterialDescr
     if (material.roughness < kLeastRoughness || material.kind == SurfaceKind::Pane) {
         material.roughness = 0.0f;
     }
+    material.anisotropy = read_within(file, at + "/anisotropy", 0.0f, kMostAnisotropy).value_or(material.anisotropy);
+    material.rotation_deg = file.number(at + "/rotation_deg").value_or(material.rotation_deg);
     material.ior = read_within(file, at + "/ior", kLeastIor, kMostIor).value_or(material.ior);
     material.specular = read_share(file, at + "/specular").value_or(material.specular);
     material.edge_tint = read_share(file, at + "/edge_tint").value_or(material.edge_tint);
@@ -235,6 +237,8 @@ void read_materials(const JsonDocument& file, SceneDescription& scene) {
                          "two_sided_emission",
                          "surface",
                          "roughness",
+                         "anisotropy",
+                         "rotation_deg",
                          "ior",
                          "specular",
                          "edge_tint",
@@ -295,6 +299,10 @@ Json material_json(const MaterialDescription& material) {
               {"transmission", vector_json(material.transmission)},
               {"opacity", material.opacity},
               {"opacity_rule", kOpacityRuleNames[static_cast<std::size_t>(material.opacity_rule)]}};
+    if (material.kind == SurfaceKind::Conductor) {
+        json["anisotropy"] = material.anisotropy;
+        json["rotation_deg"] = material.rotation_deg;
+    }
     if (material.edge_tint != glm::vec3(1.0f)) json["edge_tint"] = vector_json(material.edge_tint);
     if (material.absorption != glm::vec3(0.0f)) json["absorption"] = vector_json(material.absorption);
     if (material.blend.is_any()) json["blend"] = {{"share", material.blend.share}};

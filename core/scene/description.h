@@ -42,6 +42,9 @@ inline constexpr float kMostNormalStrength = 100.0f;
 inline constexpr float kLeastSunAngle = 0.01f;
 inline constexpr float kMostSunAngle = 180.0f;
 
+/// Largest anisotropy: facets a hundred times as wide along the surface's direction as across it.
+inline constexpr float kMostAnisotropy = 0.99f;
+
 /// The direction that green has in an image of normals.
 enum class NormalGreen : std::uint32_t {
     Up,    ///< along v, up the image
@@ -75,7 +78,10 @@ struct MaterialDescription {
     glm::vec3 emission{0.0f};         ///< emitted radiance of the front side, W m^-2 sr^-1
     bool two_sided_emission = false;  ///< the back side emits too
     SurfaceKind kind = SurfaceKind::Diffuse;
-    float roughness = 0.0f;        ///< in [0, 1]: sqrt(alpha) of GGX; 0: smooth
+    float roughness = 0.0f;  ///< in [0, 1]: sqrt(alpha) of GGX; 0: smooth
+    /// Rough conductor: 1 - the ratio of the smaller to the larger width of its facets, whose geometric mean is alpha.
+    float anisotropy = 0.0f;
+    float rotation_deg = 0.0f;     ///< of the direction of the larger width from that of u, towards that of v
     float ior = 1.5f;              ///< dielectric, plastic and pane: index of refraction, inside over outside
     glm::vec3 specular{1.0f};      ///< conductor: reflectance at normal incidence; others: tint of the reflection
     glm::vec3 edge_tint{1.0f};     ///< conductor: reflectance at 82 degrees over that of Schlick's approximation
@@ -90,6 +96,7 @@ struct MaterialDescription {
 
     /// Whether rays may pass the surface as if it were not there.
     bool may_have_holes() const { return textures.opacity != kNoTexture || opacity < 1.0f; }
+    bool is_anisotropic() const { return kind == SurfaceKind::Conductor && roughness > 0.0f && anisotropy > 0.0f; }
     bool absorbs() const { return kind == SurfaceKind::Dielectric && absorption != glm::vec3(0.0f); }
     friend bool operator==(const MaterialDescription&, const MaterialDescription&) = default;
 };

@@ -28,7 +28,7 @@ Vec2f spread_point(int i) {
 /// Mean of value(ggx, wo, m) over the normals m visible from a direction.
 template <class Value>
 float mean_over_facets(float roughness, float cos_theta, Value value) {
-    const Ggx ggx{square(roughness)};
+    const Ggx ggx{{square(roughness)}};
     const Vec3f wo{safe_sqrt(1.0f - cos_theta * cos_theta), 0.0f, cos_theta};
     double sum = 0.0;
     for (int i = 0; i < kSamples; ++i) sum += static_cast<double>(value(ggx, wo, ggx.sample(wo, spread_point(i))));

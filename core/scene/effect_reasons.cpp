@@ -75,6 +75,7 @@ std::string reason_of(Feature feature, const SceneDescription& scene, const Came
     case Feature::DeltaLights: return count_text(scene.punctual_lights);
     case Feature::ThinPanes: return materials_that(scene, [](const auto& m) { return m.kind == SurfaceKind::Pane; });
     case Feature::Blends: return materials_that(scene, [](const auto& m) { return m.blend.is_any(); });
+    case Feature::Anisotropy: return materials_that(scene, [](const auto& m) { return m.is_anisotropic(); });
     case Feature::Absorption: return materials_that(scene, [](const auto& m) { return m.absorbs(); });
     }
     return "";

@@ -17,7 +17,8 @@ FeatureSet needed_effects(const CameraDescription& camera);
 
 /// Stable names of the effects in a set, in the order of kAllFeatures, for `info`, `--stats` and `--force-effects`:
 /// "smooth-normals", "environment", "next-event-estimation", "specular", "rough", "plastic", "textures", "cut-outs",
-/// "environment-map", "thin-lens", "many-lights", "normal-maps", "delta-lights", "absorption", "thin-panes", "blends".
+/// "environment-map", "thin-lens", "many-lights", "normal-maps", "delta-lights", "absorption", "thin-panes", "blends",
+/// "anisotropy".
 std::vector<std::string> effect_names(FeatureSet set);
 
 }  // namespace pl

@@ -59,12 +59,19 @@ void pack_normals(const SceneDescription& scene, HostScene& packed) {
     }
 }
 
+/// Whether a metal's lobe is so wide that it is guided. The smaller width counts: a streak narrower than the cells of a table is sampled
+/// better by its facets.
+bool is_guided_metal(const MaterialDescription& m) {
+    const float across = m.is_anisotropic() ? m.roughness * std::sqrt(std::sqrt(1.0f - m.anisotropy)) : m.roughness;
+    return across >= kMinGuidedRoughness;
+}
+
 /// Albedo of the guided lobes of a surface; 0 if none is guided.
 Vec3f guided_albedo(const MaterialDescription& m) {
     switch (m.kind) {
     case SurfaceKind::Diffuse:
     case SurfaceKind::Plastic: return m.albedo;
-    case SurfaceKind::Conductor: return m.roughness < kMinGuidedRoughness ? Vec3f{0.0f} : Vec3f{m.specular};
+    case SurfaceKind::Conductor: return is_guided_metal(m) ? Vec3f{m.specular} : Vec3f{0.0f};
     case SurfaceKind::Dielectric:
     case SurfaceKind::Pane: return Vec3f{0.0f};
     }

@@ -1,8 +1,10 @@
 #include "core/scene/pack_textures.h"
-#include "core/scene/glass.h"
 
 #include <algorithm>
 #include <vector>
+
+#include "core/scene/anisotropy.h"
+#include "core/scene/glass.h"
 
 namespace pl {
 namespace {
@@ -112,6 +114,18 @@ struct Uses {
     }
 };
 
+/// Nothing unless a material in use is anisotropic.
+void pack_anisotropies(const SceneDescription& scene, const Uses& uses, HostScene& packed) {
+    std::vector<MaterialAnisotropy> all(scene.materials.size());
+    bool any = false;
+    for (std::size_t m = 0; m < all.size(); ++m) {
+        if (!uses.shown[m] || !scene.materials[m].is_anisotropic()) continue;
+        all[m] = pack_anisotropy(scene.materials[m].anisotropy, scene.materials[m].rotation_deg);
+        any = true;
+    }
+    if (any) packed.anisotropies = std::move(all);
+}
+
 void pack_uvs(const SceneDescription& scene, HostScene& packed) {
     packed.uvs = scene.uvs;
     const auto origin = static_cast<std::uint32_t>(packed.uvs.size());
@@ -149,10 +163,12 @@ void pack_textures(const SceneDescription& scene, HostScene& packed) {
     }
     if (has_holes) packed.opacities = std::move(opacities);
     if (has_blends) packed.blends = std::move(blends);
+    pack_anisotropies(scene, uses, packed);
+    if (packed.images.empty() && packed.anisotropies.empty()) return;
+    pack_uvs(scene, packed);
     if (packed.images.empty()) return;
     packed.material_images = std::move(of_material);
     if (has_normals) packed.normal_maps = std::move(normal_maps);
-    pack_uvs(scene, packed);
 }
 
 }  // namespace pl

@@ -1,5 +1,6 @@
 #include "core/scene/scene_hash.h"
 
+#include <algorithm>
 #include <bit>
 #include <string_view>
 
@@ -22,8 +23,8 @@ void add(Fnv1a& hash, const glm::uvec3& v) {
     hash.add(std::uint64_t{v.z});
 }
 
-/// Adds the optional parts of a scene (lobes, colors of vertices, opacities, blends, textures, far lights, lights without extent), each
-/// preceded by its name. Absent parts add nothing, so that a new kind of part does not change the hashes of existing scenes.
+/// Adds the optional parts of a scene (lobes, anisotropies, colors of vertices, opacities, blends, textures, far lights, lights without
+/// extent), each preceded by its name. Absent parts add nothing, so that a new kind of part does not change the hashes of existing scenes.
 class PartHasher {
 public:
     explicit PartHasher(Fnv1a& hash) : hash_(hash) {}
@@ -41,6 +42,11 @@ public:
             if (m.absorbs()) {
                 begin("absorption", i);
                 add(hash_, m.absorption);
+            }
+            if (m.is_anisotropic()) {
+                begin("anisotropy", i);
+                hash_.add(m.anisotropy);
+                hash_.add(m.rotation_deg);
             }
             if (m.edge_tint == glm::vec3(1.0f)) continue;
             begin("edge tint", i);
@@ -89,8 +95,9 @@ public:
             hash_.add(scene.materials[i].normal_strength);
             hash_.add(std::uint64_t{static_cast<std::uint32_t>(scene.materials[i].normal_green)});
         }
-        if (!any) return;
-        for (std::size_t i = 0; i < scene.textures.size(); ++i) add_texture(scene.textures[i], i);
+        if (any)
+            for (std::size_t i = 0; i < scene.textures.size(); ++i) add_texture(scene.textures[i], i);
+        if (!any && std::ranges::none_of(scene.materials, &MaterialDescription::is_anisotropic)) return;
         begin("image coordinates", scene.uvs.size());
         for (const glm::vec2& uv : scene.uvs) add_pair(uv.x, uv.y);
         for (const TriangleDescription& triangle : scene.triangles) add(hash_, triangle.uv);

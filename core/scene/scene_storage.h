@@ -17,6 +17,7 @@ struct SceneStorage {
     Array<Material> materials;
     Array<SurfaceLobes> lobes;
     Array<float> directional_albedo;
+    Array<MaterialAnisotropy> anisotropies;
     Array<Vec3f> absorption;
     Array<Vec2f> uvs;
     Array<TriangleUvs> triangle_uvs;
@@ -58,6 +59,7 @@ struct SceneStorage {
             .materials = view_of(materials),
             .lobes = view_of(lobes),
             .directional_albedo = view_of(directional_albedo),
+            .anisotropies = view_of(anisotropies),
             .absorption = view_of(absorption),
             .textures = {.uvs = view_of(uvs),
                          .triangle_uvs = view_of(triangle_uvs),
@@ -95,6 +97,7 @@ void zip(const SceneStorage<From>& from, SceneStorage<To>& to, Fn&& fn) {
     fn(from.materials, to.materials);
     fn(from.lobes, to.lobes);
     fn(from.directional_albedo, to.directional_albedo);
+    fn(from.anisotropies, to.anisotropies);
     fn(from.absorption, to.absorption);
     fn(from.uvs, to.uvs);
     fn(from.triangle_uvs, to.triangle_uvs);

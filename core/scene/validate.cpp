@@ -132,6 +132,13 @@ void check_surfaces(std::string& list, std::span<const MaterialDescription> mate
                                    kLeastIor, kMostIor);
             });
         }
+        if (!within(m.anisotropy, 0.0f, kMostAnisotropy))
+            number.add([&] {
+                return fmt::format("material '{}': anisotropy {} is not within [0, {}]", m.name, m.anisotropy,
+                                   kMostAnisotropy);
+            });
+        if (!std::isfinite(m.rotation_deg))
+            number.add([&] { return fmt::format("material '{}': the rotation is not finite", m.name); });
         if (!within(m.opacity, 0.0f, 1.0f))
             number.add(
                 [&] { return fmt::format("material '{}': opacity {} is not within [0, 1]", m.name, m.opacity); });

@@ -31,6 +31,7 @@ EFFECTS = {
     "shading/delta_lights.h": str(Path(__file__).with_name("ink.json")),
     "shading/absorption.h": str(Path(__file__).with_name("ink.json")),
     "shading/blends.h": str(Path(__file__).with_name("rust.json")),
+    "shading/anisotropy.h": str(Path(__file__).with_name("brush.json")),
 }
 PLAIN = (["cornell", "--nee", "off"], ["cornell", "--nee", "on"], ["cornell", "--method", "reinforcement", "--nee", "on"],
          ["cornell", "--method", "precomputed", "--bins", "16"], ["door", "--nee", "on"], ["sky", "--nee", "on"])
@@ -50,7 +51,7 @@ def spent_in(counts, file):
 
 # Left out by the quick check: many runs under callgrind take long.
 QUICK_PLAIN = PLAIN[2:3]
-QUICK_SCENES = ("coats", str(Path(__file__).with_name("ink.json")), str(Path(__file__).with_name("rust.json")))
+QUICK_SCENES = ("coats", *(str(Path(__file__).with_name(f"{name}.json")) for name in ("ink", "rust", "brush")))
 
 
 def main():
@@ -75,6 +76,9 @@ def main():
         print(f"{scene}: {spent} instructions of {file}")
         if spent == 0:
             failures.append(f"{scene} needs {file}: expected instructions of it, got none")
+    # Metals, glass and coats without images have a kernel without anisotropy.
+    if spent_in(profiles["coats"], "shading/anisotropy.h"):
+        failures.append("coats: expected none of shading/anisotropy.h, got instructions of it")
     if failures:
         sys.exit("FAILED:\n" + "\n".join(failures))
 

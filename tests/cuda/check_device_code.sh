@@ -174,7 +174,7 @@ for file in "${files[@]}"; do
     expect "fused multiply-adds in $file" "$(grep 'fma\.' "$work/$file.ptx" | grep -vc 'fma\.rm\.f32' || true)" -eq 0
     expect "atomic sums of floats in $file" "$(grep -cE '(^|[[:space:]])(atom|red)[a-z0-9_.]*\.b?f(16|32|64)' "$work/$file.ptx" || true)" -eq 0
 done
-# Sets: 0 nothing, 4 light samples, 7 smooth normals and environment too, 63 lobes too, 65535 all. Philox' key schedule and its
+# Sets: 0 nothing, 4 light samples, 7 smooth normals and environment too, 63 lobes too, 131071 all. Philox' key schedule and its
 # first multiplier count the draws; doubles count the traversals; rounding down only images and maps need. Smooth
 # normals are recognized by their square roots: the rest of their code is less than the difference of two compilations.
 measure() {
@@ -191,11 +191,11 @@ measure() {
     done
 }
 for file in "${pictures[@]}"; do
-    measure "$file" 0 4 7 63 65535
+    measure "$file" 0 4 7 63 131071
     expect "$file: instructions without and with light samples" "${size[0]}" -lt "${size[4]}"
     expect "$file: roots without and with normals and environment" "${roots[4]}" -lt "${roots[7]}"
     expect "$file: instructions without and with lobes" "${size[7]}" -lt "${size[63]}"
-    expect "$file: instructions with some and all effects" "${size[63]}" -lt "${size[65535]}"
+    expect "$file: instructions with some and all effects" "${size[63]}" -lt "${size[131071]}"
     expect "$file: random numbers without and with light samples" "${draws[0]}" -lt "${draws[4]}"
     expect "$file: random numbers for normals and environment" "${draws[4]}" -eq "${draws[7]}"
     expect "$file: random numbers without and with lobes" "${draws[7]}" -lt "${draws[63]}"
@@ -203,12 +203,12 @@ for file in "${pictures[@]}"; do
     expect "$file: double operations for one ray" "${doubles[0]}" -le 18
     expect "$file: double operations for normals, environment and lobes" "${doubles[4]}" -eq "${doubles[63]}"
     expect "$file: roundings down without images" "${floors[63]}" -eq "${floors[0]}"
-    expect "$file: roundings down with images" "${floors[65535]}" -gt "${floors[63]}"
+    expect "$file: roundings down with images" "${floors[131071]}" -gt "${floors[63]}"
 done
 for file in "${learners[@]}" "${networks[@]}"; do
-    measure "$file" 0 7 65535
+    measure "$file" 0 7 131071
     expect "$file: instructions with none and some effects" "${size[0]}" -lt "${size[7]}"
-    expect "$file: instructions with some and all effects" "${size[7]}" -lt "${size[65535]}"
+    expect "$file: instructions with some and all effects" "${size[7]}" -lt "${size[131071]}"
     expect "$file: double operations without and with shadow rays" "$((2 * doubles[0]))" -eq "${doubles[7]}"
     expect "$file: roundings down without images" "${floors[7]}" -eq "${floors[0]}"
 done
@@ -218,7 +218,7 @@ for file in "${paths[@]}"; do
         expect "$file: fused operations of box tests in set $bits" "${boxes[bits]}" -eq "$((2 * doubles[bits]))"
     done
     expect "$file: exponentials and logarithms of the device" "$(grep -cE '(ex2|lg2)\.approx' "$work/$file.ptx" || true)" -eq 0
-    expect "$file: double divisions and roots" "$(count "$file" 65535 '(div|sqrt)[a-z.]*\.f64')" -eq 0
+    expect "$file: double divisions and roots" "$(count "$file" 131071 '(div|sqrt)[a-z.]*\.f64')" -eq 0
 done
 
 # most_stack FILE PATTERN: of the kernels that trace paths with these sets of effects

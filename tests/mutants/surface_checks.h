@@ -1,18 +1,24 @@
-// Checks of lobes and of choosing among many lights: short versions of tests/core/kernel/shading/bsdf_test.cpp and light_tree_test.cpp.
+// Checks of lobes and of choosing among many lights: short versions of tests/core/kernel/shading/bsdf_test.cpp, anisotropy_test.cpp and
+// light_tree_test.cpp.
 #pragma once
 
+#include "core/scene/anisotropy.h"
 #include "tests/support/shading/lobe_fixture.h"
 #include "tests/support/shading/many_lights.h"
 #include "tests/support/statistics/rules.h"
 
 namespace pl::test {
 
-/// Rule S3 for rough metal and for rough glass from inside. 1e6 samples each, finds 3 %.
+/// Rule S3 for rough metal, the same or not in all directions, and for rough glass from inside. 1e6 samples each, finds 3 %.
 inline Decision check_facets() {
     const Decision metal =
         check_sampling(LobeSurface(rough(SurfaceKind::Conductor, 0.6f)), 0.6f, true, kFineSampling);
-    return worse_of(metal,
-                    check_sampling(LobeSurface(rough(SurfaceKind::Dielectric, 0.6f)), 0.8f, false, kFineSampling));
+    const LobeSurfaceOf<AnisotropicFacets> brushed(
+        rough(SurfaceKind::Conductor, 0.6f), Vec3f{0.0f},
+        {.material = pack_anisotropy(0.6f, 0.0f), .axis = {.u = {1.0f, 0.0f, 0.0f}}});
+    const Decision glass =
+        check_sampling(LobeSurface(rough(SurfaceKind::Dielectric, 0.6f)), 0.8f, false, kFineSampling);
+    return worse_of(worse_of(metal, check_sampling(brushed, tilted(0.6f), true, kFineSampling)), glass);
 }
 
 /// Rule S1 for white surfaces: they return all light. Their tables are good to 1 %. 4e5 samples each, resolves 2 %.

@@ -315,6 +315,11 @@ def rough_metal(alpha):
             f'<float name="alpha" value="{alpha}"/></bsdf>')
 
 
+def brushed_metal(along_u, along_v):
+    return ('<bsdf type="roughconductor"><string name="material" value="none"/><string name="distribution" value="ggx"/>'
+            f'<float name="alpha_u" value="{along_u}"/><float name="alpha_v" value="{along_v}"/></bsdf>')
+
+
 def rough_glass(alpha):
     return ('<bsdf type="roughdielectric"><string name="distribution" value="ggx"/><float name="int_ior" value="1.5"/>'
             f'<float name="ext_ior" value="1"/><float name="alpha" value="{alpha}"/></bsdf>')

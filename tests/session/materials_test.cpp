@@ -189,6 +189,7 @@ TEST_CASE("Material edit: a bad value is refused with the reason, and nothing ch
     refused("emission", [](auto& m) { m.emission.z = -1.0f; });
     refused("emission", [](auto& m) { m.emission.z = INFINITY; });
     refused("roughness", [](auto& m) { m.roughness = 1.01f; });
+    refused("anisotropy", [](auto& m) { m.anisotropy = -0.1f; });
     refused("index of refraction", [](auto& m) { m.ior = 0.5f; });
     refused("specular", [](auto& m) { m.specular.x = -0.1f; });
     refused("transmission", [](auto& m) { m.transmission.x = 2.0f; });

@@ -160,6 +160,7 @@ TEST_CASE("All methods agree on lights without extent") { check_agreement(cornel
 TEST_CASE("All methods agree on mirror and glass") { check_agreement("spheres", 0.2); }
 TEST_CASE("All methods agree on glass that absorbs") { check_agreement(cornell_with_stained_glass(), 0.2); }
 TEST_CASE("All methods agree on thin panes") { check_agreement(cornell_with_panes(), 0.2); }
+TEST_CASE("All methods agree on anisotropic metals") { check_agreement(cornell_with_brushed_metals(), 0.2); }
 TEST_CASE("All methods agree on blends") { check_agreement(cornell_with_blends(), 0.2); }
 TEST_CASE("All methods agree on coats and rough metals") { check_agreement("coats", 0.2); }
 TEST_CASE("All methods agree on the row before the lens") { check_agreement("lens", 0.16); }
@@ -196,6 +197,9 @@ TEST_CASE("All targets, rates and rules of roulette agree on lights without exte
 }
 TEST_CASE("All methods agree on mirror and glass within 3 %", "[merge]") { check_agreement("spheres", 0.03, 1.15); }
 TEST_CASE("All methods agree on coats and rough metals within 3 %", "[merge]") { check_agreement("coats", 0.03); }
+TEST_CASE("All methods agree on anisotropic metals within 5 %", "[merge]") {
+    check_agreement(cornell_with_brushed_metals(), 0.05);
+}
 TEST_CASE("All methods agree on blends within 5 %", "[merge]") { check_agreement(cornell_with_blends(), 0.05); }
 TEST_CASE("All targets, rates and rules of roulette agree on blends", "[merge]") {
     check_variants(cornell_with_blends(), 0.2);

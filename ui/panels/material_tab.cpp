@@ -70,6 +70,14 @@ bool draw_reflection(MaterialDescription& m, const MaterialDescription& file) {
     if (m.kind != SurfaceKind::Pane)
         changed |= slider_row("Roughness", "0 is a mirror; the alpha of the microfacet distribution is its square.",
                               &m.roughness, {0.0f, 1.0f, file.roughness, "%.3f"});
+    if (m.kind == SurfaceKind::Conductor && m.roughness > 0.0f) {
+        changed |= slider_row(
+            "Anisotropy", "1 - the ratio of the smaller to the larger width of the facets; 0: the same both ways.",
+            &m.anisotropy, {0.0f, kMostAnisotropy, file.anisotropy, "%.3f"});
+        if (m.anisotropy > 0.0f)
+            changed |= slider_row("Rotation", "Angle of the larger width from that of u of the images, towards v.",
+                                  &m.rotation_deg, {-180.0f, 180.0f, file.rotation_deg, "%.1f"});
+    }
     if (m.kind != SurfaceKind::Conductor)
         changed |=
             slider_row("Index", "Index of refraction, inside over outside: water 1.33, glass 1.5, diamond 2.4.",

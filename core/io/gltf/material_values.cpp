@@ -1,11 +1,21 @@
 #include "core/io/gltf/material_values.h"
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/scene/anisotropy.h"
 
 namespace pl {
 namespace {
 
 constexpr const char* kMoved = "a number out of the range of the format is moved into it";
+
+/// Widths of facets along u and v.
+glm::vec2 widths_of(float roughness, float strength) {
+    const float width = roughness * roughness;
+    return {width + (1.0f - width) * strength * strength, width};
+}
 
 }  // namespace
 
@@ -37,6 +47,29 @@ Metalness metalness_of(const SceneDescription& scene, std::uint32_t texture, flo
     }
     metalness.mean = static_cast<float>(sum / static_cast<double>(texels.size()));
     return metalness;
+}
+
+bool stretch_facets(SceneDescription& scene, float strength, MaterialDescription& metal) {
+    std::uint32_t& texture = metal.textures.roughness;
+    if (texture == kNoTexture) {
+        const glm::vec2 widths = widths_of(metal.roughness, strength);
+        return set_widths(metal, widths.x, widths.y);
+    }
+    TextureDescription image = scene.textures[texture];
+    double sum = 0.0;
+    for (glm::vec4& texel : image.texels) {
+        const float roughness = metal.roughness * texel.x;
+        sum += static_cast<double>(roughness);
+        const glm::vec2 widths = widths_of(roughness, strength);
+        texel.x = std::sqrt(std::sqrt(widths.x * widths.y));
+    }
+    const float mean = static_cast<float>(sum / static_cast<double>(image.texels.size()));
+    const glm::vec2 widths = widths_of(mean, strength);
+    const bool is_within = set_widths(metal, widths.x, widths.y);
+    texture = static_cast<std::uint32_t>(scene.textures.size());
+    scene.textures.push_back(std::move(image));
+    metal.roughness = 1.0f;
+    return is_within;
 }
 
 glm::vec3 color_or(const JsonDocument& document, const std::string& pointer, const glm::vec3& standard) {

@@ -25,6 +25,10 @@ struct Metalness {
 /// Of a factor times the third channel of a texture of the scene, or of kNoTexture.
 Metalness metalness_of(const SceneDescription& scene, std::uint32_t texture, float factor);
 
+/// Makes the facets of a metal wider along the direction of u, in a copy of its image of roughness, too, if it has one. Returns whether
+/// the anisotropy is within kMostAnisotropy. [KHR_materials_anisotropy]
+bool stretch_facets(SceneDescription& scene, float strength, MaterialDescription& metal);
+
 /// Three numbers as they are.
 glm::vec3 color_or(const JsonDocument& document, const std::string& pointer, const glm::vec3& standard);
 

@@ -95,6 +95,8 @@ void GltfMeshes::read_attributes(GltfPrimitive& primitive) {
         primitive.weights = read_floats(file_, *weights, "VEC4");
     }
     read_colors(primitive);
+    if (surfaces_[primitive.surface].is_anisotropic && file_.json().has(primitive.at + "/attributes/TANGENT"))
+        file_.note("tangents are left out: texture coordinates decide the direction of anisotropy", primitive.at);
     if (file_.json().has(primitive.at + "/targets"))
         file_.note("morph targets are left out: the base shape is shown", primitive.at);
     for (const char* more : {"/attributes/JOINTS_1", "/extensions/KHR_materials_variants"})

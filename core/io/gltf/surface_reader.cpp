@@ -1,5 +1,4 @@
 #include "core/io/gltf/surface_reader.h"
-#include "core/scene/glass.h"
 
 #include <algorithm>
 #include <array>
@@ -13,6 +12,8 @@
 #include "core/io/gltf/material_values.h"
 #include "core/io/mtl_surface.h"
 #include "core/kernel/shading/absorption.h"
+#include "core/scene/anisotropy.h"
+#include "core/scene/glass.h"
 
 namespace pl {
 namespace {
@@ -22,7 +23,7 @@ constexpr std::array<std::pair<const char*, const char*>, 11> kLeftOut = {{
     {"/occlusionTexture", "occlusion images are left out: the light itself is traced"},
     {"/extensions/KHR_materials_sheen", "sheen is left out"},
     {"/extensions/KHR_materials_iridescence", "iridescence is left out"},
-    {"/extensions/KHR_materials_anisotropy", "anisotropy is left out"},
+    {"/extensions/KHR_materials_anisotropy/anisotropyTexture", "images of anisotropy are left out"},
     {"/extensions/KHR_materials_dispersion", "dispersion is left out"},
     {"/extensions/KHR_materials_diffuse_transmission", "diffuse transmission is left out"},
     {"/extensions/KHR_materials_subsurface", "subsurface scattering is left out"},
@@ -54,6 +55,7 @@ public:
             read_metal_rough();
         roughness_ = material_.roughness;
         roughness_image_ = material_.textures.roughness;
+        read_anisotropy();
         read_specular();
         read_transmission();
         read_clearcoat();
@@ -123,6 +125,17 @@ private:
         metalness_ = metalness_of(scene_, kNoTexture, metal_factor_);
         if (is_metal) base_ = specular;
         note("specular and glossiness are shown as the nearer of metal and plastic");
+    }
+
+    /// The direction of facets, of the metal alone. [KHR_materials_anisotropy]
+    void read_anisotropy() {
+        const std::string at = extension("anisotropy");
+        strength_ = share(at + "/anisotropyStrength", 0.0f);
+        if (strength_ == 0.0f) return;
+        turn_deg_ = glm::degrees(json_.number(at + "/anisotropyRotation").value_or(0.0f));
+        if (metalness_.least < 1.0f) note("anisotropy of other surfaces than metals is left out");
+        if (metalness_.most > 0.0f && roughness_image_ != kNoTexture)
+            note("anisotropy with an image of roughness is that of its mean");
     }
 
     /// The amount and color of the reflection of dielectrics. [KHR_materials_specular]
@@ -301,12 +314,17 @@ private:
         return material;
     }
 
-    MaterialDescription as_metal() const {
+    MaterialDescription as_metal() {
         MaterialDescription material = material_;
         material.kind = SurfaceKind::Conductor;
         material.specular = base_;
         material.roughness = roughness_;
         material.textures.roughness = roughness_image_;
+        if (strength_ == 0.0f) return material;
+        if (!stretch_facets(scene_, strength_, material)) note(kWidestFacets);
+        if (surface_.uv.rotation != 0.0f) note("images that are turned turn the direction of anisotropy, too");
+        material.rotation_deg += turn_deg_;
+        surface_.is_anisotropic = true;
         return material;
     }
 
@@ -322,6 +340,8 @@ private:
     float metal_factor_ = 1.0f;
     float roughness_ = 1.0f;                      ///< of the metal; glass and coats may have another one
     std::uint32_t roughness_image_ = kNoTexture;  ///< likewise
+    float strength_ = 0.0f;                       ///< of the anisotropy of the metal
+    float turn_deg_ = 0.0f;                       ///< of its direction
     glm::vec3 base_{1.0f};
     float alpha_ = 1.0f;
     bool has_uv_ = false;

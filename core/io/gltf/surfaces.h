@@ -14,6 +14,7 @@ namespace pl {
 struct GltfSurface {
     std::uint32_t material = 0;  ///< index into SceneDescription::materials
     UvMapping uv{};              ///< of all images
+    bool is_anisotropic = false;
     bool is_hidden = false;      ///< fully transparent everywhere
 };
 

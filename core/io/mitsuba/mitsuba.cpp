@@ -166,6 +166,8 @@ private:
             const MitsubaSurface& surface = surfaces_[material];
             const glm::dmat4 to_uv = surface.image ? mitsuba_to_uv(surface.image) : glm::dmat4(1.0);
             if (to_uv != glm::dmat4(1.0)) transform_uvs(scene_, material, to_uv);
+            if ((to_uv[0].y != 0.0 || to_uv[1].x != 0.0) && scene_.materials[material].is_anisotropic())
+                surface.image.note("images that are turned turn the direction of anisotropy, too");
             if (surface.relief) add_mitsuba_relief(scene_, material, *surface.relief);
         }
     }

@@ -13,6 +13,7 @@
 #include "core/io/mitsuba/blends.h"
 #include "core/io/mtl_surface.h"
 #include "core/kernel/shading/fresnel.h"
+#include "core/scene/anisotropy.h"
 
 namespace pl {
 namespace {
@@ -185,6 +186,8 @@ private:
         MaterialDescription metal = material_;
         metal.kind = SurfaceKind::Conductor;
         metal.specular = base;
+        // [Burley 2012, "Physically-Based Shading at Disney", 5.4]
+        metal.anisotropy = 0.9f * std::clamp(bsdf_.number("anisotropic").value_or(0.0f), 0.0f, 1.0f);
         if (bsdf_.number("spec_trans").value_or(0.0f) >= 0.5f) {
             material_.kind = SurfaceKind::Dielectric;
             material_.transmission = base;
@@ -201,12 +204,23 @@ private:
         bsdf_.note("principled surfaces are shown as metal, plastic, a blend of the two, or glass");
     }
 
-    void read_roughness() {
-        float alpha = bsdf_.number("alpha").value_or(0.1f);
-        if (const auto along = bsdf_.number("alpha_u")) {
-            alpha = std::sqrt(std::max(*along * bsdf_.number("alpha_v").value_or(*along), 0.0f));
-            bsdf_.note("anisotropic facets are shown as isotropic ones");
+    /// The width of the facets, or the geometric mean of both; conductors get the anisotropy, too.
+    float read_width() {
+        const auto along_u = bsdf_.number("alpha_u");
+        if (!along_u) return bsdf_.number("alpha").value_or(0.1f);
+        const float along_v = bsdf_.number("alpha_v").value_or(*along_u);
+        const float mean = std::sqrt(std::max(*along_u * along_v, 0.0f));
+        if (*along_u == along_v) return mean;
+        if (material_.kind != SurfaceKind::Conductor) {
+            bsdf_.note("anisotropic facets of glass and coats are shown as isotropic ones");
+            return mean;
         }
+        if (!set_widths(material_, std::max(*along_u, 0.0f), std::max(along_v, 0.0f))) bsdf_.note(kWidestFacets);
+        return material_.roughness * material_.roughness;
+    }
+
+    void read_roughness() {
+        const float alpha = read_width();
         if (bsdf_.text("distribution").value_or("beckmann") != "ggx")
             bsdf_.note("facets of another distribution are shown as those of GGX");
         const float roughness = std::sqrt(std::clamp(alpha, 0.0f, 1.0f));

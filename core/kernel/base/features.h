@@ -25,6 +25,7 @@ enum class Feature : std::uint32_t {
     Absorption = 1u << 13,          ///< glass that absorbs light along the way through it
     ThinPanes = 1u << 14,           ///< thin sheets of clear glass
     Blends = 1u << 15,              ///< surfaces of two materials, chosen at random by their shares
+    Anisotropy = 1u << 16,          ///< facets of rough metals that are wider in one direction than in the other
 };
 
 inline constexpr Feature kAllFeatures[] = {Feature::SmoothNormals, Feature::Environment, Feature::NextEventEstimation,
@@ -32,7 +33,7 @@ inline constexpr Feature kAllFeatures[] = {Feature::SmoothNormals, Feature::Envi
                                            Feature::Textures,      Feature::CutOuts,     Feature::EnvironmentMap,
                                            Feature::ThinLens,      Feature::ManyLights,  Feature::NormalMaps,
                                            Feature::DeltaLights,   Feature::Absorption,  Feature::ThinPanes,
-                                           Feature::Blends};
+                                           Feature::Blends,        Feature::Anisotropy};
 
 /// A set of features; usable as a template argument.
 struct FeatureSet {

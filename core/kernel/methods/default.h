@@ -15,11 +15,14 @@ struct DefaultMethod : MethodHooks {
         return lambert_pdf_sa(surface, wi);
     }
 
-    PL_HD DirectionSample sample_direction(const Vertex&, const SurfacePoint& surface, const LayeredBsdf& bsdf,
-                                           const ScatterNumbers& numbers) const {
+    template <class Facets>
+    PL_HD DirectionSample sample_direction(const Vertex&, const SurfacePoint& surface,
+                                           const LayeredBsdfOf<Facets>& bsdf, const ScatterNumbers& numbers) const {
         return sample_bsdf(surface, bsdf, numbers);
     }
-    PL_HD float pdf_sa(const Vertex&, const SurfacePoint& surface, const LayeredBsdf& bsdf, Vec3f wi) const {
+    template <class Facets>
+    PL_HD float pdf_sa(const Vertex&, const SurfacePoint& surface, const LayeredBsdfOf<Facets>& bsdf,
+                       Vec3f wi) const {
         return bsdf.pdf_sa(surface, wi);
     }
 };

@@ -17,7 +17,8 @@ PL_HD inline DirectionSample weigh_lambert(const SurfacePoint& surface, Vec3f wi
 }
 
 /// BSDF sampling of any other surface, by numbers.u.y, u.z and numbers.lobe.
-PL_HD inline DirectionSample sample_bsdf(const SurfacePoint& surface, const LayeredBsdf& bsdf,
+template <class Facets>
+PL_HD inline DirectionSample sample_bsdf(const SurfacePoint& surface, const LayeredBsdfOf<Facets>& bsdf,
                                          const ScatterNumbers& numbers) {
     const Vec3f wi = bsdf.sample(surface, {numbers.u.y, numbers.u.z}, numbers.lobe);
     const float pdf_sa = bsdf.pdf_sa(surface, wi);
@@ -111,17 +112,20 @@ struct MethodHooks {
     PL_HD void finished(auto&, MethodCounters&) const {}
 };
 
-/// sample_direction() and pdf_sa() have two overloads: for Lambert reflectors, and with a LayeredBsdf for all other
+/// sample_direction() and pdf_sa() have two overloads: for Lambert reflectors, and with a LayeredBsdfOf for all other
 /// surfaces.
 template <class M>
 concept Method = std::derived_from<M, MethodHooks> &&
     requires(const M& method, const typename M::Vertex& vertex, typename M::Memory& memory,
-             const SurfacePoint& surface, const LayeredBsdf& bsdf, const ScatterNumbers& numbers, Vec3f wi,
-             const Observation& observation, MethodCounters& counters, typename M::Expectation& expectation) {
+             const SurfacePoint& surface, const LayeredBsdf& bsdf, const Bsdf<kEveryFeature>& every,
+             const ScatterNumbers& numbers, Vec3f wi, const Observation& observation, MethodCounters& counters,
+             typename M::Expectation& expectation) {
     { method.sample_direction(vertex, surface, numbers) } -> std::same_as<DirectionSample>;
     { method.pdf_sa(vertex, surface, wi) } -> std::same_as<float>;
     { method.sample_direction(vertex, surface, bsdf, numbers) } -> std::same_as<DirectionSample>;
     { method.pdf_sa(vertex, surface, bsdf, wi) } -> std::same_as<float>;
+    { method.sample_direction(vertex, surface, every, numbers) } -> std::same_as<DirectionSample>;
+    { method.pdf_sa(vertex, surface, every, wi) } -> std::same_as<float>;
     { method.locate(surface, counters) } -> std::same_as<typename M::Vertex>;
     { method.observe(memory, observation, vertex, counters) } -> std::same_as<typename M::Sample>;
     { method.record(typename M::Sample{}) } -> std::same_as<void>;

@@ -11,13 +11,12 @@ namespace pl {
 /// Least cosine of a mapped normal with the surface's own one and with the geometric one.
 inline constexpr float kLeastMappedCosine = 0.01f;
 
-/// Axes along u and to its left around a unit normal. [Pharr, Jakob, Humphreys, Physically Based Rendering, 4th ed., 6.5.2, equation 6.7]
-struct TangentFrame {
-    Frame frame{};
-    float side =
-        0.0f;  ///< 1: v is to the left of u; -1: the image is mirrored; 0: u does not differ between the corners
+/// The direction of u on a triangle. [Pharr, Jakob, Humphreys, Physically Based Rendering, 4th ed., 6.5.2, equation 6.7]
+struct TextureAxis {
+    Vec3f u{0.0f};      ///< of any length; 0: u does not differ between the corners
+    float side = 1.0f;  ///< 1: v is to the left of u; -1: the image is mirrored
 };
-PL_HD inline TangentFrame tangent_frame(const SceneView& scene, std::uint32_t primitive, Vec3f normal) {
+PL_HD inline TextureAxis texture_axis(const SceneView& scene, std::uint32_t primitive) {
     const Triangle triangle = scene.triangles[primitive];
     const TriangleUvs corners = scene.textures.triangle_uvs[primitive];
     const Vec2f origin = scene.textures.uvs[corners.t0];
@@ -27,12 +26,23 @@ PL_HD inline TangentFrame tangent_frame(const SceneView& scene, std::uint32_t pr
     const Vec3f p0 = scene.positions[triangle.v0];
     const Vec3f dp1 = scene.positions[triangle.v1] - p0;
     const Vec3f dp2 = scene.positions[triangle.v2] - p0;
-    const Vec3f along_u = side * (uv2.y * dp1 - uv1.y * dp2);
-    const Vec3f tangent = along_u - glm::dot(along_u, normal) * normal;
+    return {side * (uv2.y * dp1 - uv1.y * dp2), side};
+}
+
+/// Axes along u and to its left around a unit normal.
+struct TangentFrame {
+    Frame frame{};
+    float side = 0.0f;  ///< TextureAxis::side; 0: u does not differ between the corners
+};
+PL_HD inline TangentFrame tangent_frame(const TextureAxis& axis, Vec3f normal) {
+    const Vec3f tangent = axis.u - glm::dot(axis.u, normal) * normal;
     const float length2 = glm::dot(tangent, tangent);
     if (!(length2 > 0.0f && length2 < kInfinity)) return {};
     const Vec3f x = tangent * (1.0f / std::sqrt(length2));
-    return {{x, glm::cross(normal, x), normal}, side};
+    return {{x, glm::cross(normal, x), normal}, axis.side};
+}
+PL_HD inline TangentFrame tangent_frame(const SceneView& scene, std::uint32_t primitive, Vec3f normal) {
+    return tangent_frame(texture_axis(scene, primitive), normal);
 }
 
 /// Components of the normal that a texel holds, in the TangentFrame; z is positive.

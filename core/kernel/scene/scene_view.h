@@ -48,8 +48,9 @@ struct SceneView {
     Span<const TriangleNormals> triangle_normals;  ///< [triangle], or empty
     Span<const Vec3f> vertex_colors;               ///< [position], each channel in [0, 1]; empty if all are white
     Span<const Material> materials;
-    Span<const SurfaceLobes> lobes;        ///< [material]; empty if all are diffuse
-    Span<const float> directional_albedo;  ///< tables that SurfaceLobes::table indexes
+    Span<const SurfaceLobes> lobes;               ///< [material]; empty if all are diffuse
+    Span<const float> directional_albedo;         ///< tables that SurfaceLobes::table indexes
+    Span<const MaterialAnisotropy> anisotropies;  ///< [material]; empty if all facets are isotropic
     Span<const Vec3f> absorption;  ///< [material], per length, of the inside of glass; empty if nothing absorbs
     Textures textures;
     Span<const MaterialOpacity> opacities;  ///< [material]; empty if all are opaque

@@ -1,8 +1,9 @@
 // The BSDF at a surface point. Kernels are templates over it: LambertBsdf, an albedo alone, serves scenes with
-// diffuse surfaces only, LayeredBsdf all others.
+// diffuse surfaces only, LayeredBsdfOf all others.
 #pragma once
 
 #include "core/kernel/base/features.h"
+#include "core/kernel/shading/anisotropy.h"
 #include "core/kernel/shading/conductor.h"
 #include "core/kernel/shading/dielectric.h"
 #include "core/kernel/shading/lambert.h"
@@ -11,8 +12,8 @@
 
 namespace pl {
 
-/// Conductors at least this rough are guided: lobes less wide than a few cells of a 16 x 16 table are sampled as well without it
-/// (docs/notebook/2026-11-23-paths-and-lobes.md).
+/// Conductors at least this rough, by the smaller of two widths, are guided: lobes less wide than a few cells of a 16 x 16 table are
+/// sampled as well without it (docs/notebook/2026-11-23-paths-and-lobes.md).
 inline constexpr float kMinGuidedRoughness = 0.35f;
 
 /// Sample of a delta lobe.
@@ -33,20 +34,37 @@ struct LambertBsdf {
     PL_HD Vec3f eval(const SurfacePoint&, Vec3f, float cos_i) const { return lambert_eval(reflectance, cos_i); }
 };
 
+/// The facets of a LayeredBsdfOf in kernels without anisotropy.
+struct IsotropicFacets {
+    struct Grain {};
+    using Width = IsotropicWidth;
+
+    IsotropicFacets() = default;
+    PL_HD explicit IsotropicFacets(const Grain&) {}
+
+    static PL_HD Ggx ggx(float roughness) { return {{square(roughness)}}; }
+    static PL_HD float table_roughness(float roughness) { return roughness; }
+    static PL_HD Frame frame(const Grain&, Vec3f normal) { return make_frame(normal); }
+};
+
 /// The BSDF of any SurfaceKind. A vertex samples the delta lobe with probability delta_probability(), else the
 /// others, which eval(), pdf_sa() and sample() describe; their densities and weights exclude that probability.
-class LayeredBsdf {
+/// `Facets`, of conductors: IsotropicFacets or AnisotropicFacets.
+template <class Facets>
+class LayeredBsdfOf : Facets {
 public:
-    LayeredBsdf() = default;
+    using Grain = typename Facets::Grain;
+
+    LayeredBsdfOf() = default;
 
     /// `albedo`, `lobes`: of the material at this point; `tables`: SceneView::directional_albedo.
-    PL_HD LayeredBsdf(const SurfacePoint& surface, Vec3f wo, Vec3f albedo, const SurfaceLobes& lobes,
-                      Span<const float> tables)
-        : reflectance_(albedo), lobes_(lobes), tables_(tables.data + lobes.table), albedo_(albedo) {
+    PL_HD LayeredBsdfOf(const SurfacePoint& surface, Vec3f wo, Vec3f albedo, const SurfaceLobes& lobes,
+                        Span<const float> tables, const Grain& grain = {})
+        : Facets(grain), reflectance_(albedo), lobes_(lobes), tables_(tables.data + lobes.table), albedo_(albedo) {
         if (is_lambert()) return;
         // The shading normal may face away from the viewer; the geometric one never does.
         const bool usable = glm::dot(wo, surface.shading_normal) > kGrazing;
-        frame_ = make_frame(usable ? surface.shading_normal : surface.geometric_normal);
+        frame_ = Facets::frame(grain, usable ? surface.shading_normal : surface.geometric_normal);
         wo_ = frame_.to_local(wo);
         wo_.z = max_of(wo_.z, kGrazing);
         // A coat is on both sides; the back of a dielectric is its inside.
@@ -56,7 +74,7 @@ public:
             returned_ = plastic().reflected_by_coat(wo_.z);
         } else if (!smooth()) {
             if (is_inside) tables_ += AlbedoTable::kSize;
-            returned_ = AlbedoTable{tables_}.at(lobes.roughness, wo_.z);
+            returned_ = AlbedoTable{tables_}.at(Facets::table_roughness(lobes.roughness), wo_.z);
         }
         albedo_ = directional_albedo();
     }
@@ -156,10 +174,17 @@ private:
             return to_sides(surface, {reflect_at(wo_, {0.0f, 0.0f, 1.0f}), lobes_.specular});
         return to_sides(surface, {-wo_, lobes_.transmission});
     }
-    PL_HD Ggx ggx() const { return {square(lobes_.roughness)}; }
+    PL_HD Ggx ggx() const { return IsotropicFacets::ggx(lobes_.roughness); }
 
-    PL_HD RoughConductor conductor() const {
-        return {ggx(), lobes_.specular, lobes_.edge_loss(), {tables_}, lobes_.roughness, wo_, returned_};
+    PL_HD RoughConductor<typename Facets::Width> conductor() const {
+        const float roughness = lobes_.roughness;
+        return {Facets::ggx(roughness),
+                lobes_.specular,
+                lobes_.edge_loss(),
+                {tables_},
+                Facets::table_roughness(roughness),
+                wo_,
+                returned_};
     }
     PL_HD RoughDielectric dielectric() const {
         return {ggx(), eta_, lobes_.specular, lobes_.transmission, wo_, returned_};
@@ -189,8 +214,23 @@ private:
     Vec3f albedo_{0.0f};
 };
 
+using LayeredBsdf = LayeredBsdfOf<IsotropicFacets>;
+
 template <FeatureSet F>
-using Bsdf = std::conditional_t<F.has_any(kLobeFeatures), LayeredBsdf, LambertBsdf>;
+using FacetsOf = std::conditional_t<F.has(Feature::Anisotropy), AnisotropicFacets, IsotropicFacets>;
+template <FeatureSet F>
+using Bsdf = std::conditional_t<F.has_any(kLobeFeatures), LayeredBsdfOf<FacetsOf<F>>, LambertBsdf>;
+
+/// The directions of a material's facets at a surface point, for the facets of F.
+template <FeatureSet F>
+PL_HD inline auto grain_at([[maybe_unused]] const SceneView& scene, [[maybe_unused]] const SurfacePoint& surface,
+                           [[maybe_unused]] std::uint32_t material) {
+    typename FacetsOf<F>::Grain grain;
+    if constexpr (F.has(Feature::Anisotropy)) {
+        if (!scene.anisotropies.empty()) grain = grain_of(scene, surface, material);
+    }
+    return grain;
+}
 
 /// The BSDF of a surface point for wo: of a blend, that of the chosen material, with the normal of the surface's own. `b`: its
 /// barycentric weights.
@@ -200,14 +240,15 @@ PL_HD inline Bsdf<F> make_bsdf(const SceneView& scene, const SurfacePoint& surfa
     const Vec3f albedo = albedo_at<F>(scene, shown);
     if constexpr (F.has_any(kLobeFeatures)) {
         const SurfaceLobes lobes = scene.lobes.empty() ? SurfaceLobes{} : lobes_at<F>(scene, shown);
+        const auto grain = grain_at<F>(scene, surface, shown.material);
         if constexpr (F.has(Feature::NormalMaps)) {
             if (has_normal_map(scene.textures, surface.material)) {
                 SurfacePoint bent = surface;
                 bent.shading_normal = reflecting_normal(surface.shading_normal, surface.geometric_normal, wo);
-                return {bent, wo, albedo, lobes, scene.directional_albedo};
+                return {bent, wo, albedo, lobes, scene.directional_albedo, grain};
             }
         }
-        return {surface, wo, albedo, lobes, scene.directional_albedo};
+        return {surface, wo, albedo, lobes, scene.directional_albedo, grain};
     } else {
         return {albedo};
     }

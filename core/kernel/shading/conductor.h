@@ -10,12 +10,13 @@ namespace pl {
 /// Local directions, wo.z > 0. Single scattering by [Walter et al. 2007]; multiple scattering by a reciprocal lobe
 /// that restores the missing energy, all of it if the facets absorb nothing.   [Kulla and Conty 2017, "Revisiting
 /// Physically Based Shading at Imageworks"; Turquin 2019 for its tint]
+template <class Width>
 struct RoughConductor {
-    Ggx ggx;
+    GgxOf<Width> ggx;
     Vec3f f0;         ///< reflectance at normal incidence
     Vec3f edge_loss;  ///< see fresnel_conductor()
     AlbedoTable lossless;
-    float roughness;
+    float roughness;  ///< for the table
     Vec3f wo;
     float returned;  ///< lossless.at(roughness, wo.z)
 

@@ -1,4 +1,4 @@
-// The isotropic GGX (Trowbridge-Reitz) microfacet distribution. Local directions: z is the normal, wo.z > 0.
+// The GGX (Trowbridge-Reitz) microfacet distribution. Local directions: z is the normal, wo.z > 0.
 // [Walter et al. 2007, "Microfacet Models for Refraction through Rough Surfaces"; Heitz 2014, "Understanding the
 // Masking-Shadowing Function"]
 #pragma once
@@ -7,19 +7,32 @@
 
 namespace pl {
 
-struct Ggx {
-    float alpha;  ///< width (roughness squared), in (0, 1]
+/// The same width in all directions.
+struct IsotropicWidth {
+    float alpha;  ///< roughness squared, in (0, 1]
+
+    PL_HD float x() const { return alpha; }
+    PL_HD float y() const { return alpha; }
+    PL_HD float product() const { return alpha * alpha; }
+    /// The square of a y where the width along x is that along y, and the other way.
+    PL_HD static float widened2(float y2) { return y2; }
+    PL_HD static float narrowed2(float y2) { return y2; }
+};
+
+/// `Width`: IsotropicWidth, or AnisotropicWidth of anisotropy.h.
+template <class Width>
+struct GgxOf {
+    Width width;
 
     /// D(m), 1/sr: area of the facets with normal m, m.z > 0, per unit surface area.   [Walter et al. 2007, eq. 33]
     PL_HD float density(Vec3f m) const {
-        const float a2 = alpha * alpha;
-        const float t = (m.x * m.x + m.y * m.y) / a2 + m.z * m.z;
-        return kInvPi / (a2 * t * t);
+        const float t = (m.x * m.x + width.widened2(m.y * m.y)) / (width.x() * width.x()) + m.z * m.z;
+        return kInvPi / (width.product() * t * t);
     }
-    /// Smith's Lambda of a direction on either side.   [Heitz 2014, eq. 72]
+    /// Smith's Lambda of a direction on either side.   [Heitz 2014, eqs. 72, 86]
     PL_HD float lambda(Vec3f w) const {
-        const float slope2 = (w.x * w.x + w.y * w.y) / (w.z * w.z);
-        return 0.5f * (std::sqrt(1.0f + alpha * alpha * slope2) - 1.0f);
+        const float slope2 = (w.x * w.x + width.narrowed2(w.y * w.y)) / (w.z * w.z);
+        return 0.5f * (std::sqrt(1.0f + width.x() * width.x() * slope2) - 1.0f);
     }
     /// Height-correlated masking-shadowing G2 of two directions, and masking G1 of one.   [Heitz 2014, eqs. 99, 43]
     PL_HD float visible(Vec3f wo, Vec3f wi) const { return 1.0f / (1.0f + lambda(wo) + lambda(wi)); }
@@ -32,7 +45,7 @@ struct Ggx {
     /// Samples the normals that are visible from wo; u in [0,1)^2.   [Dupuy and Benyoub 2023, "Sampling Visible GGX
     /// Normals with Spherical Caps"]
     PL_HD Vec3f sample(Vec3f wo, Vec2f u) const {
-        const Vec3f v = glm::normalize(Vec3f{alpha * wo.x, alpha * wo.y, wo.z});
+        const Vec3f v = glm::normalize(Vec3f{width.x() * wo.x, width.y() * wo.y, wo.z});
         const Vec2f disk = square_to_disk(u);
         // Azimuth and squared radius of the disk point serve as the two uniform numbers of the spherical cap.
         const float r2 = min_of(disk.x * disk.x + disk.y * disk.y, 1.0f);
@@ -40,10 +53,12 @@ struct Ggx {
         const float stretch = r2 > 0.0f ? std::sqrt(max_of(1.0f - z * z, 0.0f) / r2) : 0.0f;
         const Vec3f h = Vec3f{disk.x * stretch, disk.y * stretch, z} + v;
         // h = 0 opposite to v: that facet is seen edge-on, any normal will do.
-        const Vec3f m{alpha * h.x, alpha * h.y, max_of(h.z, 1e-7f)};
+        const Vec3f m{width.x() * h.x, width.y() * h.y, max_of(h.z, 1e-7f)};
         return glm::normalize(m);
     }
 };
+
+using Ggx = GgxOf<IsotropicWidth>;
 
 /// Unit half vector of two directions on the same side.
 PL_HD inline Vec3f half_vector(Vec3f wo, Vec3f wi) { return glm::normalize(wo + wi); }

@@ -27,4 +27,15 @@ struct SurfaceLobes {
     PL_HD Vec3f edge_loss() const { return Vec3f{1.0f} - transmission; }
 };
 
+/// Of a material: facets that are wider along one direction than across it, see anisotropy.h. As it is, they are not.
+struct MaterialAnisotropy {
+    /// Width along that direction over the geometric mean of both widths, whose root the roughness is.
+    float stretch = 1.0f;
+    float ratio = 1.0f;  ///< of the width across to that along, in (0, 1]
+    /// Roughness of the isotropic facets that reflect as much, over that of the material.
+    float table_stretch = 1.0f;
+    float cosine = 1.0f;  ///< of the angle from the direction of u, towards that of v
+    float sine = 0.0f;
+};
+
 }  // namespace pl

@@ -159,6 +159,8 @@ TEST_CASE("Values of a wrong type or range are refused with file and line") {
         Case{"\"materials\": {\"wall\": {\"specular\": [0, 0, 2]}}", "within [0, 1]"},
         Case{"\"materials\": {\"wall\": {\"wrap\": \"mirror\"}}", "expected repeat or clamp"},
         Case{"\"materials\": {\"wall\": {\"albedo_map\": \"/etc/x.png\"}}", "in the folder of the scene"},
+        Case{"\"materials\": {\"wall\": {\"anisotropy\": 1}}", "expected a number within [0, 0.99], got 1"},
+        Case{"\"materials\": {\"wall\": {\"rotation_deg\": \"left\"}}", "expected a number"},
         Case{"\"materials\": {\"wall\": {\"blend\": 1}}", "expected an object"},
         Case{"\"materials\": {\"wall\": {\"blend\": {\"share\": 0.5}}}",
              "expected 'with', the name of a material, got none"},

@@ -184,6 +184,35 @@ TEST_CASE("write_scene: blends keep the material, the share and the image, and c
     CHECK(scene_hash(scene) != hash);
 }
 
+TEST_CASE("write_scene: anisotropy keeps its numbers and the texture coordinates, and changes the hash") {
+    SceneDescription scene = triangle_of({.name = "brushed",
+                                          .kind = SurfaceKind::Conductor,
+                                          .roughness = 0.5f,
+                                          .anisotropy = 0.75f,
+                                          .rotation_deg = 30.0f});
+    scene.uvs = {{0, 0}, {1, 0}, {0.5f, 1}};
+    scene.triangles[0].uv = {0, 1, 2};
+    const SceneDescription read = rewritten(scene);
+    CHECK(read.materials[0].anisotropy == 0.75f);
+    CHECK(read.materials[0].rotation_deg == 30.0f);
+    CHECK(read.uvs == scene.uvs);
+    const std::string hash = scene_hash(read);
+    for (const auto& edit : {+[](SceneDescription& s) { s.materials[0].anisotropy = 0.5f; },
+                             +[](SceneDescription& s) { s.materials[0].rotation_deg = 60.0f; },
+                             +[](SceneDescription& s) {
+                                 s.uvs[1] = {0, 1};
+                             }}) {
+        SceneDescription other = read;
+        edit(other);
+        CHECK(scene_hash(other) != hash);
+    }
+    // Of other surfaces it is nothing.
+    scene.materials[0].kind = SurfaceKind::Plastic;
+    const std::string plastic = scene_hash(scene);
+    scene.materials[0].anisotropy = 0.5f;
+    CHECK(scene_hash(scene) == plastic);
+}
+
 TEST_CASE("write_scene: opacities keep their number, image and rule") {
     for (const OpacityRule rule : {OpacityRule::Threshold, OpacityRule::Blend}) {
         MaterialDescription material{.name = "m", .albedo = glm::vec3(0.8f)};

@@ -24,6 +24,7 @@ SceneDescription random_scene(Uniforms& random) {
         if (material.kind == SurfaceKind::Dielectric && random.below(2) == 0) material.absorption = glm::vec3(1.0f);
         // One table for all, so that packing stays quick.
         if (material.kind == SurfaceKind::Conductor && random.below(2) == 0) material.roughness = 0.5f;
+        if (i == 0) material.anisotropy = 0.5f;
         scene.materials.push_back(material);
     }
     for (std::uint32_t i = 0; i < 4; ++i)
@@ -60,6 +61,10 @@ FeatureSet needed_by_look(const SceneDescription& scene) {
     if (scene.environment != glm::vec3{0.0f}) set = set.with(Feature::Environment);
     if (scene.sun.radiance != glm::vec3{0.0f}) set = set.with(Feature::EnvironmentMap);
     for (const TriangleDescription& t : scene.triangles)
+        if (scene.materials[t.material].kind == SurfaceKind::Conductor &&
+            scene.materials[t.material].roughness > 0.0f && scene.materials[t.material].anisotropy > 0.0f)
+            set = set.with(Feature::Anisotropy);
+    for (const TriangleDescription& t : scene.triangles)
         if (t.normal.x != TriangleDescription::kNoNormal) set = set.with(Feature::SmoothNormals);
     return set;
 }
@@ -78,7 +83,7 @@ TEST_CASE("The scan of a scene finds the effects of all its materials") {
     // All but light samples, images and the lens, which the random scenes have none of.
     CHECK(seen == features(Feature::SmoothNormals, Feature::Environment, Feature::Specular, Feature::Rough,
                            Feature::Plastic, Feature::CutOuts, Feature::EnvironmentMap, Feature::Absorption,
-                           Feature::ThinPanes, Feature::Blends)
+                           Feature::ThinPanes, Feature::Blends, Feature::Anisotropy)
                       .bits);
 }
 
@@ -97,6 +102,8 @@ TEST_CASE("Effects that a scene does not need take no memory") {
     CHECK(packed.material_images.capacity() == 0);
     CHECK(packed.opacities.capacity() == 0);
     CHECK(packed.blends.capacity() == 0);
+    CHECK(packed.anisotropies.capacity() == 0);
+    CHECK(packed.uvs.capacity() == 0);
     CHECK(packed.vertex_colors.capacity() == 0);
     CHECK(packed.map_texels.capacity() == 0);
     CHECK(needed_effects(packed) == FeatureSet{});

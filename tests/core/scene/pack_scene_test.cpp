@@ -125,7 +125,8 @@ TEST_CASE("An environment is an effect") {
     CHECK(effect_names(all) == std::vector<std::string>{"smooth-normals", "environment", "next-event-estimation",
                                                         "specular", "rough", "plastic", "textures", "cut-outs",
                                                         "environment-map", "thin-lens", "many-lights", "normal-maps",
-                                                        "delta-lights", "absorption", "thin-panes", "blends"});
+                                                        "delta-lights", "absorption", "thin-panes", "blends",
+                                                        "anisotropy"});
     CHECK(effect_names(FeatureSet{}).empty());
 }
 

@@ -75,4 +75,25 @@ inline SceneDescription cornell_with_blends() {
     return scene;
 }
 
+/// The Cornell box with blocks of anisotropic metals, one of them guided; their normals decide the directions.
+inline SceneDescription cornell_with_brushed_metals() {
+    SceneDescription scene = shipped_scene("cornell");
+    scene.name = "brushed metals";
+    const auto first = static_cast<std::uint32_t>(scene.materials.size());
+    scene.materials.push_back({.name = "satin",
+                               .kind = SurfaceKind::Conductor,
+                               .roughness = 0.6f,
+                               .anisotropy = 0.6f,
+                               .rotation_deg = 20.0f,
+                               .specular = {0.9f, 0.8f, 0.6f}});
+    scene.materials.push_back({.name = "brushed",
+                               .kind = SurfaceKind::Conductor,
+                               .roughness = 0.4f,
+                               .anisotropy = 0.9f,
+                               .specular = {0.7f, 0.8f, 0.9f}});
+    add_box(scene, Vec3f{60, 350, 250}, Vec3f{200, 450, 400}, false, first);
+    add_box(scene, Vec3f{320, 350, 150}, Vec3f{500, 480, 330}, false, first + 1);
+    return scene;
+}
+
 }  // namespace pl::test

@@ -85,7 +85,7 @@ inline SceneDescription plane_scene(float albedo) {
     return scene;
 }
 
-/// A closed box of many surfaces that needs every effect: lobes, blends, images, holes, a window to map, sun and sky, a lens.
+/// A closed box of many surfaces that needs every effect: lobes, anisotropy, blends, images, holes, a window to map, sun and sky, a lens.
 inline SceneDescription every_effect() {
     BoxLook look;
     look.albedo.fill(glm::vec3(0.7f, 0.6f, 0.5f));
@@ -108,6 +108,10 @@ inline SceneDescription every_effect() {
     scene.materials[kWallZ1].blend = {.other = kWallX0, .share = 0.8f};
     scene.materials[kWallZ1].textures.blend = 0;
     scene.materials[kWallX0].blend = {.other = kFloor, .share = 0.5f};
+    scene.materials[kWallZ0].kind = SurfaceKind::Conductor;
+    scene.materials[kWallZ0].roughness = 0.5f;
+    scene.materials[kWallZ0].anisotropy = 0.7f;
+    scene.materials[kWallZ0].specular = glm::vec3(0.6f, 0.7f, 0.8f);
     scene = with_lattices(std::move(scene), glm::vec3(0.0f), glm::vec3(1.0f));
     scene.materials.push_back(scene.materials.back());
     scene.materials.back().opacity = 0.6f;

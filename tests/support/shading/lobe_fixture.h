@@ -11,10 +11,14 @@
 namespace pl::test {
 
 /// A horizontal surface at the origin with one kind of lobes.
-class LobeSurface {
+template <class Facets>
+class LobeSurfaceOf {
 public:
+    using Grain = typename Facets::Grain;
+
     /// `albedo` is that of the guided lobes, see pack_scene().
-    explicit LobeSurface(const SurfaceLobes& lobes, Vec3f albedo = Vec3f{0.0f}) : lobes_(lobes), albedo_(albedo) {
+    explicit LobeSurfaceOf(const SurfaceLobes& lobes, Vec3f albedo = Vec3f{0.0f}, const Grain& grain = {})
+        : lobes_(lobes), albedo_(albedo), grain_(grain) {
         switch (lobes.kind) {
         case SurfaceKind::Diffuse:
         case SurfaceKind::Pane: break;
@@ -34,15 +38,18 @@ public:
         point.front = front;
         return point;
     }
-    LayeredBsdf from(Vec3f wo, bool front = true) const {
-        return {point(front), wo, albedo_, lobes_, {table_.data(), static_cast<std::uint32_t>(table_.size())}};
+    LayeredBsdfOf<Facets> from(Vec3f wo, bool front = true) const {
+        return {point(front), wo, albedo_, lobes_, {table_.data(), static_cast<std::uint32_t>(table_.size())},
+                grain_};
     }
 
 private:
     SurfaceLobes lobes_;
     Vec3f albedo_;
+    Grain grain_;
     std::vector<float> table_;
 };
+using LobeSurface = LobeSurfaceOf<IsotropicFacets>;
 
 /// Unit direction in the xz plane.
 inline Vec3f tilted(float cos_theta) { return {std::sqrt(1.0f - cos_theta * cos_theta), 0.0f, cos_theta}; }
@@ -91,8 +98,9 @@ inline constexpr SamplingTest kQuickSampling{250000, 0.06};
 inline constexpr SamplingTest kFineSampling{1000000, 0.03};
 
 /// S3 for the lobes of a surface; directions to the wrong side are left out of both.
-inline Decision check_sampling(const LobeSurface& surface, float cos_o, bool front, SamplingTest test) {
-    const LayeredBsdf bsdf = surface.from(tilted(cos_o), front);
+template <class Facets>
+Decision check_sampling(const LobeSurfaceOf<Facets>& surface, Vec3f wo, bool front, SamplingTest test) {
+    const LayeredBsdfOf<Facets> bsdf = surface.from(wo, front);
     const SurfacePoint point = LobeSurface::point(front);
     const auto probabilities = SphereBins::integrate(
         [&](Vec3f wi) { return bsdf.cosine(point, wi) > 0.0f ? bsdf.pdf_sa(point, wi) : 0.0f; });
@@ -105,10 +113,14 @@ inline Decision check_sampling(const LobeSurface& surface, float cos_o, bool fro
     }
     return sampler_matches(counts, probabilities, test.delta);
 }
+inline Decision check_sampling(const LobeSurface& surface, float cos_o, bool front, SamplingTest test) {
+    return check_sampling(surface, tilted(cos_o), front, test);
+}
 
 /// Weights of samples: their mean is the reflectance for light from all directions.
-inline Moments returned_light(const LobeSurface& surface, Vec3f wo, bool front, int samples) {
-    const LayeredBsdf bsdf = surface.from(wo, front);
+template <class Facets>
+Moments returned_light(const LobeSurfaceOf<Facets>& surface, Vec3f wo, bool front, int samples) {
+    const LayeredBsdfOf<Facets> bsdf = surface.from(wo, front);
     const SurfacePoint point = LobeSurface::point(front);
     const double p = static_cast<double>(bsdf.delta_probability());
     Uniforms random(5);
@@ -118,7 +130,8 @@ inline Moments returned_light(const LobeSurface& surface, Vec3f wo, bool front, 
         const Vec2f u = random.square();
         double weight = 0.0;
         if (static_cast<double>(choice) < p) {
-            weight = static_cast<double>(bsdf.sample_delta<kEveryFeature>(point, random.next()).weight.x) / p;
+            weight =
+                static_cast<double>(bsdf.template sample_delta<kEveryFeature>(point, random.next()).weight.x) / p;
         } else {
             const Vec3f wi = bsdf.sample(point, u, random.next());
             const float pdf_sa = bsdf.pdf_sa(point, wi);

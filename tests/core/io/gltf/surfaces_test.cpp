@@ -182,6 +182,46 @@ TEST_CASE("gltf materials: the inside of glass absorbs") {
     CHECK(surface(glass).absorption == glm::vec3(0.0f));  // thin
 }
 
+// At a roughness of 0.5 the facets are 0.25 wide, and along the tangent 0.25 + 0.75 times the square of the strength.
+TEST_CASE("gltf materials: anisotropy of metals") {
+    Json brushed = metal_rough({{"roughnessFactor", 0.5}});
+    brushed["extensions"]["KHR_materials_anisotropy"] = {{"anisotropyStrength", 0.5}, {"anisotropyRotation", 1.0}};
+    const MaterialDescription metal = surface(brushed);
+    CHECK(metal.anisotropy == Approx(1.0 - 0.25 / 0.4375));
+    CHECK(square(square(metal.roughness)) == Approx(0.25 * 0.4375));
+    CHECK(metal.rotation_deg == Approx(57.29578));
+    Json& extension = brushed["extensions"]["KHR_materials_anisotropy"];
+    extension["anisotropyTexture"] = {{"index", 0}};
+    CHECK(is_told(load(brushed), "images of anisotropy are left out"));
+    extension = {{"anisotropyStrength", 1}};
+    brushed["pbrMetallicRoughness"]["roughnessFactor"] = 0.05;
+    const SceneDescription line = load(brushed);
+    CHECK(line.materials[0].anisotropy == kMostAnisotropy);
+    CHECK(is_told(line, "100 times as wide"));
+    CHECK_FALSE(is_told(line, "texture coordinates"));
+    GltfMaker bare;
+    bare.triangle(brushed);
+    bare.root["meshes"][0]["primitives"][0]["attributes"].erase("TEXCOORD_0");
+    CHECK(is_told(load(bare), "1 triangles are anisotropic but have no texture coordinates"));
+    CHECK_FALSE(is_told(load(bare), "tangents"));
+    const auto tangents = bare.numbers(std::vector<float>(12, 1.0f), 5126, "VEC4", 3);
+    bare.root["meshes"][0]["primitives"][0]["attributes"]["TANGENT"] = tangents;
+    CHECK(is_told(load(bare), "tangents are left out: texture coordinates decide the direction of anisotropy"));
+    brushed["pbrMetallicRoughness"] = {{"metallicFactor", 0.25}, {"roughnessFactor", 0.5}};
+    const SceneDescription blend = load(brushed);
+    REQUIRE(blend.materials.size() == 2);
+    CHECK(blend.materials[0].anisotropy == 0.0f);
+    CHECK(blend.materials[1].anisotropy == Approx(0.75));
+    CHECK(is_told(blend, "anisotropy of other surfaces than metals is left out"));
+    const SceneDescription plastic = load(extended("anisotropy", {{"anisotropyStrength", 0.5}}));
+    CHECK(is_told(plastic, "anisotropy of other surfaces than metals is left out"));
+    extension["anisotropyStrength"] = 2;
+    CHECK(is_told(load(brushed), "a number out of the range of the format is moved into it"));
+    extension["anisotropyStrength"] = 0;
+    CHECK(load(brushed).materials[1].roughness == 0.5f);
+    CHECK_FALSE(load(brushed).materials[1].is_anisotropic());
+}
+
 TEST_CASE("gltf materials: a clear coat on dielectrics") {
     const Json coat = extended("clearcoat", {{"clearcoatFactor", 1}, {"clearcoatRoughnessFactor", 0.2}});
     CHECK(surface(coat).kind == SurfaceKind::Plastic);
@@ -229,7 +269,6 @@ TEST_CASE("gltf materials: unlit, specular-glossiness, and content that is left 
     CHECK(surface(extended("pbrSpecularGlossiness", metal)).specular == glm::vec3(0.9f, 0.8f, 0.7f));
     for (const auto& [name, words] : {std::pair{"sheen", "sheen is left out"},
                                       {"iridescence", "iridescence is left out"},
-                                      {"anisotropy", "anisotropy"},
                                       {"dispersion", "dispersion"}})
         CHECK(is_told(load(extended(name, Json::object())), words));
     const SceneDescription wild = load(metal_rough({{"roughnessFactor", 7}, {"baseColorFactor", {2, 0, 0, 1}}}));
@@ -264,6 +303,17 @@ TEST_CASE("gltf images: colors are decoded, roughness is green, and coordinates 
     CHECK(rough.texels[0].x == Approx(0.2));
     CHECK(rough.texels[1].x == 1.0f);
     CHECK(scene.uvs == std::vector<glm::vec2>{{0, 1}, {1, 1}, {0, 0}});
+}
+
+TEST_CASE("gltf images: an anisotropic metal has an image of roughness of its own") {
+    Json material = metal_rough({{"roughnessFactor", 0.5}, {"metallicRoughnessTexture", {{"index", 0}}}});
+    material["extensions"]["KHR_materials_anisotropy"] = {{"anisotropyStrength", 0.5}};
+    const SceneDescription scene = load(with_image(material, {0, 255, 255, 255, 0, 255, 255, 255}));
+    const MaterialDescription& metal = scene.materials[0];
+    CHECK(metal.roughness == 1.0f);
+    CHECK(metal.anisotropy == Approx(1.0 - 0.25 / 0.4375));
+    CHECK(square(square(scene.textures[metal.textures.roughness].texels[1].x)) == Approx(0.25 * 0.4375));
+    CHECK(is_told(scene, "anisotropy with an image of roughness is that of its mean"));
 }
 
 TEST_CASE("gltf images: metalness that varies blends metal and plastic") {

@@ -1,6 +1,8 @@
 // Surfaces of Mitsuba scenes, adapters around them and media inside of them.
 #include "core/io/mitsuba/surfaces.h"
 
+#include <fmt/format.h>
+
 #include "core/io/image.h"
 #include "tests/core/io/mitsuba/mitsuba_text.h"
 
@@ -63,6 +65,38 @@ TEST_CASE("mitsuba: surfaces, by reference, inside of adapters, and with the val
         load_mitsuba_text("<shape type=\"rectangle\"><bsdf type=\"normalmap\"><rgb name=\"normalmap\" "
                           "value=\"1\"/><bsdf type=\"diffuse\"/></bsdf></shape>");
     CHECK(is_told(plain, "the texture of 'normalmap' is no image, and is left out"));
+}
+
+// A mean width of 0.2 either way.
+TEST_CASE("mitsuba: anisotropic metals, and others that are shown as isotropic") {
+    const auto metal = [](const char* type, float along_u, float along_v) {
+        return fmt::format("<bsdf type=\"{}\"><string name=\"distribution\" value=\"ggx\"/><float name=\"alpha_u\" "
+                           "value=\"{}\"/><float name=\"alpha_v\" value=\"{}\"/></bsdf>",
+                           type, along_u, along_v);
+    };
+    const MaterialDescription along = surface(metal("roughconductor", 0.4f, 0.1f));
+    CHECK(square(along.roughness) == Approx(0.2));
+    CHECK(along.anisotropy == Approx(0.75));
+    CHECK(along.rotation_deg == 0.0f);
+    const MaterialDescription across = surface(metal("roughconductor", 0.1f, 0.4f));
+    CHECK(square(across.roughness) == Approx(0.2));
+    CHECK(across.anisotropy == Approx(0.75));
+    CHECK(across.rotation_deg == 90.0f);
+    CHECK(surface(metal("roughconductor", 0.25f, 0.25f)).roughness == 0.5f);
+    CHECK_FALSE(surface(metal("roughconductor", 0.25f, 0.25f)).is_anisotropic());
+    const auto shape = [](const std::string& bsdf) { return "<shape type=\"rectangle\">" + bsdf + "</shape>"; };
+    const SceneDescription line = load_mitsuba_text(shape(metal("roughconductor", 0.4f, 0.0f)));
+    CHECK(line.materials[0].anisotropy == kMostAnisotropy);
+    CHECK(is_told(line, "100 times as wide"));
+    const SceneDescription glass = load_mitsuba_text(shape(metal("roughdielectric", 0.4f, 0.1f)));
+    CHECK(glass.materials[0].anisotropy == 0.0f);
+    CHECK(square(glass.materials[0].roughness) == Approx(0.2));
+    CHECK(is_told(glass, "anisotropic facets of glass and coats are shown as isotropic ones"));
+    const MaterialDescription principled =
+        surface("<bsdf type=\"principled\"><float name=\"metallic\" value=\"1\"/><float name=\"roughness\" "
+                "value=\"0.4\"/><float name=\"anisotropic\" value=\"0.5\"/></bsdf>");
+    CHECK(principled.roughness == 0.4f);
+    CHECK(principled.anisotropy == Approx(0.45));
 }
 
 TEST_CASE("mitsuba: the inside of glass absorbs, by name or in its place, and other media are told") {

@@ -1,0 +1,18 @@
+// Anisotropic facets by their numbers in files.
+#pragma once
+
+#include "core/kernel/shading/surface_lobes.h"
+#include "core/scene/description.h"
+
+namespace pl {
+
+/// Of MaterialDescription::anisotropy and rotation_deg.
+MaterialAnisotropy pack_anisotropy(float anisotropy, float rotation_deg);
+
+/// Gives a conductor the widths, at least 0, of facets along the direction of u and along that of v. Returns whether it has them: where
+/// they differ more than kMostAnisotropy allows, the smaller one grows.
+inline constexpr const char* kWidestFacets =
+    "facets more than 100 times as wide one way as the other are shown as 100 times as wide";
+bool set_widths(MaterialDescription& material, float along_u, float along_v);
+
+}  // namespace pl
