@@ -14,7 +14,7 @@ struct IsotropicWidth {
     PL_HD float x() const { return alpha; }
     PL_HD float y() const { return alpha; }
     PL_HD float product() const { return alpha * alpha; }
-    /// The square of a y where the width along x is that along y, and the other way.
+    /// The square of a normal's y after a stretch across x that gives its facets the width of x, and of a direction's y after the reverse.
     PL_HD static float widened2(float y2) { return y2; }
     PL_HD static float narrowed2(float y2) { return y2; }
 };
