@@ -53,7 +53,8 @@ TEST_CASE("info describes metals and glass by what they are") {
     write_all(folder / "a.json", R"({"schema": "pathlight.scene/1", "obj": "a.obj",
         "materials": {"gold": {"anisotropy": 0.75, "rotation_deg": 30}}})");
     const std::string brushed = run_program({"info", folder / "a.json", "-q"}).out;
-    CHECK_THAT(brushed, contains("gold: metal, reflects 1,0.75,0.25, roughness 0.5, anisotropy 0.75 at 30 degrees, "));
+    CHECK_THAT(brushed,
+               contains("gold: metal, reflects 1,0.75,0.25, roughness 0.5, anisotropy 0.75 at 30 degrees, "));
     CHECK_THAT(brushed, contains("anisotropy: of 1 material: gold\n"));
     const ProgramResult json = run_program({"info", folder / "a.obj", "--json"});
     const ordered_json gold = ordered_json::parse(lines_of(json.out).back())["materials"][0];

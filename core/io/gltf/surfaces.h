@@ -15,7 +15,7 @@ struct GltfSurface {
     std::uint32_t material = 0;  ///< index into SceneDescription::materials
     UvMapping uv{};              ///< of all images
     bool is_anisotropic = false;
-    bool is_hidden = false;      ///< fully transparent everywhere
+    bool is_hidden = false;  ///< fully transparent everywhere
 };
 
 /// Adds the materials and images of the file to the scene. The last surface is that of triangles without a material.

@@ -29,7 +29,7 @@ template <std::uint32_t kCapacity, std::uint32_t kLeast = 0>
 struct LobesOf {
     static_assert(kCapacity % kLobeBlock == 0);
 
-    /// Without values, which a field that finds no volume does not have either: a vertex is copied several times before it has some.
+    /// Uninitialized: vertices are copied before their mixture is set, and those that no volume serves never have one.
     PL_HD LobesOf() {}
 
     std::uint32_t used = 0;                          ///< those with a weight are among the first

@@ -1,5 +1,5 @@
 // The network of vertex_network.h for several vertices at once, by the lanes of a warp: a lane sums a tile of units by vertices in
-// registers, so that it loads 6 to 12 numbers for 16 to 32 products instead of a weight for each. Every unit is summed in the order of
+// registers, so that it loads 10 numbers for 16 products instead of a weight for each (of 8 vertices). Every unit is summed in the order of
 // evaluate_vertex(), which changes no bit.
 #pragma once
 
