@@ -6,8 +6,7 @@
 #   - no exponential or logarithm of the device in kernels that trace paths: its bits are not those of the host
 #   - double arithmetic only in the exact edge test of triangles, once per ray that is traced and traversal (small scenes have one of
 #     their own)
-#   - stacks of the kernels that trace paths of at most 1024 bytes, 512 without lobes and images; with networks, whose units are
-#     there, 2048
+#   - stacks of the kernels that trace paths of at most 1024 bytes, 512 without lobes and images
 #   - an effect that a set lacks has no code in its kernels: no shadow ray, no random numbers, no normals
 #   - default path tracing has no code for learning
 #   - registers, stack and spills of every kernel as in kernels.sm_90.txt, and the counts of instructions in its machine code
@@ -223,11 +222,10 @@ done
 
 # most_stack FILE PATTERN: of the kernels that trace paths with these sets of effects
 most_stack() { registers "$1" | awk -v sets="$2" '$2 == "trace_paths" && $3 ~ sets && $5 > most { most = $5 } END { print most + 0 }'; }
-for file in "${pictures[@]}" "${learners[@]}"; do
+for file in "${pictures[@]}" "${learners[@]}" "${networks[@]}"; do
     expect "$file: stack without lobes and images" "$(most_stack "$file" '^[047]$')" -le 512
     expect "$file: stack" "$(most_stack "$file" .)" -le 1024
 done
-for file in "${networks[@]}"; do expect "$file: stack" "$(most_stack "$file" .)" -le 2048; done
 
 compare "$table" registers "$(printf '%-19s %-14s %-16s %9s %6s %6s' file kernel 'effects or step' registers stack spills)"
 exit $((failures > 0))
