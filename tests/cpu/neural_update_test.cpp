@@ -8,6 +8,7 @@
 #include "tests/support/catch.hpp"
 #include "tests/support/field/neural_fixture.h"
 #include "tests/support/field/random_tables.h"
+#include "tests/support/scenes/random_values.h"
 #include "tests/support/statistics/sampling_rule.h"
 
 using namespace pl;
@@ -28,13 +29,6 @@ bool same_bits_of_network(const HostNeural& a, const HostNeural& b) {
     bool same = true;
     for_each_network_array([&](const auto& spec) { same = same && spec.get(a) == spec.get(b); });
     return same;
-}
-
-std::vector<float> random_values(std::size_t count, float low, float high, std::uint64_t seed) {
-    Uniforms random(seed);
-    std::vector<float> values(count);
-    for (float& value : values) value = random.between(low, high);
-    return values;
 }
 
 /// Cells of a volume with some visits and radiance, and logarithms that a network may predict.

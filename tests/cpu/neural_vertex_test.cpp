@@ -9,6 +9,7 @@
 #include "tests/support/catch.hpp"
 #include "tests/support/field/neural_vertex_fixture.h"
 #include "tests/support/field/random_tables.h"
+#include "tests/support/scenes/random_values.h"
 #include "tests/support/statistics/sampling_rule.h"
 #include "tests/support/statistics/sphere.h"
 
@@ -16,13 +17,6 @@ using namespace pl;
 using namespace pl::test;
 
 namespace {
-
-std::vector<float> random_values(std::size_t count, float low, float high, std::uint64_t seed) {
-    Uniforms random(seed);
-    std::vector<float> values(count);
-    for (float& value : values) value = random.between(low, high);
-    return values;
-}
 
 bool same_field(const HostNeuralVertex& a, const HostNeuralVertex& b) {
     bool same = true;

@@ -18,7 +18,7 @@ inline constexpr std::uint32_t kMostForks = 4;
 inline constexpr std::uint32_t kBranchShift = 17;
 static_assert((kMostBranches << kBranchShift) < (1u << 24));
 
-/// The data of a vertex while branches wait there: other data where a field keeps part of it elsewhere, until the next vertex.
+/// The data that a fork keeps of a vertex. Of a field with keep() and restore() part of them lies elsewhere, until the next vertex only.
 template <class M>
 PL_HD auto keep_vertex([[maybe_unused]] const M& method, const typename M::Vertex& vertex) {
     if constexpr (requires { method.field.keep(vertex); })

@@ -10,6 +10,13 @@
 
 namespace pl::test {
 
+/// A unit direction above the horizon.
+inline Vec3f random_above(Uniforms& random) {
+    Vec3f direction = random.direction();
+    direction.z = std::fabs(direction.z) + 1e-3f;
+    return glm::normalize(direction);
+}
+
 /// A horizontal surface at the origin with one kind of lobes.
 template <class Facets>
 class LobeSurfaceOf {

@@ -7,19 +7,12 @@
 #include <vector>
 
 #include "tests/support/catch.hpp"
-#include "tests/support/scenes/shapes.h"
+#include "tests/support/scenes/random_values.h"
 
 using namespace pl;
 using namespace pl::test;
 
 namespace {
-
-std::vector<float> random_values(std::size_t count, float low, float high, std::uint64_t seed) {
-    Uniforms random(seed);
-    std::vector<float> values(count);
-    for (float& value : values) value = random.between(low, high);
-    return values;
-}
 
 /// Memory of a tile as a device would leave it: of no use before it is written.
 template <class Tile>

@@ -149,12 +149,8 @@ TEST_CASE("Anisotropic metals look the same from both ends, and change when they
         const BrushedSurface turned = brushed(0.5f, anisotropy, 100.0f);
         float largest = 0.0f;
         for (int i = 0; i < 2000; ++i) {
-            Vec3f a = random.direction();
-            Vec3f b = random.direction();
-            a.z = std::fabs(a.z) + 1e-3f;
-            b.z = std::fabs(b.z) + 1e-3f;
-            a = glm::normalize(a);
-            b = glm::normalize(b);
+            const Vec3f a = random_above(random);
+            const Vec3f b = random_above(random);
             const float there = surface.from(a).eval(point, b, b.z).x / b.z;
             CHECK(there == Approx(surface.from(b).eval(point, a, a.z).x / a.z).epsilon(5e-4));
             largest = max_of(largest, std::fabs(turned.from(a).eval(point, b, b.z).x / b.z - there));
