@@ -12,7 +12,7 @@ struct ClosestSurface {
     float distance = 0.0f;
 };
 
-/// Tests every triangle of a valid scene.
+/// Tests every direct triangle of a valid scene, and those of the instances whose boxes are nearer than all surfaces found before.
 ClosestSurface closest_surface(const SceneDescription& scene, const glm::vec3& point);
 
 }  // namespace pl

@@ -10,6 +10,7 @@
 #include "core/io/surface_names.h"
 #include "core/scene/default_light.h"
 #include "core/scene/effect_reasons.h"
+#include "core/scene/instances.h"
 #include "core/scene/needed_effects.h"
 #include "core/scene/pack_scene.h"
 #include "core/scene/punctual_lights.h"
@@ -91,12 +92,24 @@ double bytes_per_triangle(const HostScene& scene) {
     return triangles == 0 ? 0.0 : static_cast<double>(bytes_of(scene)) / static_cast<double>(triangles);
 }
 
+std::string counted(std::size_t count, const char* one, const char* many) {
+    return fmt::format("{} {}", count, count == 1 ? one : many);
+}
+
+std::string triangles_text(const SceneDescription& scene) {
+    if (scene.instances.empty()) return fmt::format("{}", scene.triangles.size());
+    const std::uint32_t direct = direct_triangles(scene);
+    return fmt::format("{} directly, {} of {} shown by {}: {} in all", direct, scene.triangles.size() - direct,
+                       counted(scene.meshes.size(), "mesh", "meshes"),
+                       counted(scene.instances.size(), "instance", "instances"), shown_triangles(scene));
+}
+
 std::string report_text(const SceneReport& report) {
     const SceneDescription& scene = report.scene;
     const CameraDescription& camera = scene.camera;
     std::string text = fmt::format("name       {}\nfile       {}\nhash       {}\n", scene.name, scene.source.string(),
                                    scene_hash(scene));
-    text += fmt::format("triangles  {}\nlights     {} triangles\nmaterials  {}\n", scene.triangles.size(),
+    text += fmt::format("triangles  {}\nlights     {} triangles\nmaterials  {}\n", triangles_text(scene),
                         report.packed.lights.size(), scene.materials.size());
     for (const MaterialDescription& material : scene.materials)
         text += fmt::format("           {}: {}{}, emits {}{}{}\n", material.name, surface_text(material),
@@ -125,6 +138,13 @@ std::string report_text(const SceneReport& report) {
     return text;
 }
 
+void add_instances(const SceneDescription& scene, Json& json) {
+    if (scene.instances.empty()) return;
+    json["meshes"] = scene.meshes.size();
+    json["instances"] = scene.instances.size();
+    json["shown_triangles"] = shown_triangles(scene);
+}
+
 Json json_of(const SceneReport& report) {
     const SceneDescription& scene = report.scene;
     Json materials = Json::array();
@@ -149,23 +169,25 @@ Json json_of(const SceneReport& report) {
     for (const NamedCamera& camera : scene.cameras) cameras.push_back(camera.name);
     Json effects = Json::array();
     for (const Effect& effect : report.effects) effects.push_back({{"name", effect.name}, {"reason", effect.reason}});
-    return {{"name", scene.name},
-            {"file", scene.source.string()},
-            {"scene_hash", scene_hash(scene)},
-            {"triangles", scene.triangles.size()},
-            {"lights", report.packed.lights.size()},
-            {"light", name_of(light_of(scene))},
-            {"punctual_lights", scene.punctual_lights.size()},
-            {"materials", materials},
-            {"bytes", bytes_of(report.packed)},
-            {"bytes_per_triangle", bytes_per_triangle(report.packed)},
-            {"knobs", knobs},
-            {"bounds", {{"low", vector_json(report.bounds.low)}, {"high", vector_json(report.bounds.high)}}},
-            {"camera", camera_json(scene.camera)},
-            {"cameras", cameras},
-            {"effects_needed", effects},
-            {"effects_compiled", report.compiled},
-            {"kernel", report.kernel}};
+    Json json{{"name", scene.name},
+              {"file", scene.source.string()},
+              {"scene_hash", scene_hash(scene)},
+              {"triangles", scene.triangles.size()},
+              {"lights", report.packed.lights.size()},
+              {"light", name_of(light_of(scene))},
+              {"punctual_lights", scene.punctual_lights.size()},
+              {"materials", materials},
+              {"bytes", bytes_of(report.packed)},
+              {"bytes_per_triangle", bytes_per_triangle(report.packed)},
+              {"knobs", knobs},
+              {"bounds", {{"low", vector_json(report.bounds.low)}, {"high", vector_json(report.bounds.high)}}},
+              {"camera", camera_json(scene.camera)},
+              {"cameras", cameras},
+              {"effects_needed", effects},
+              {"effects_compiled", report.compiled},
+              {"kernel", report.kernel}};
+    add_instances(scene, json);
+    return json;
 }
 
 }  // namespace

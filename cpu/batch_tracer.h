@@ -15,7 +15,8 @@ namespace pl {
 
 enum class IntersectorChoice;
 
-/// Any of the batch intersectors behind one interface. Dispatch is per batch, so its cost per ray is negligible.
+/// Any of the batch intersectors behind one interface, and the instances of the scene. Dispatch is per batch, so its cost per ray is
+/// negligible.
 class BatchTracer {
 public:
     /// Throws Error if the chosen intersector is not in this build or does not support the scene.
@@ -23,14 +24,17 @@ public:
 
     void find_closest(RayBatch& batch, std::uint32_t count) const {
         std::visit([&](const auto& intersector) { intersector.find_closest(batch, count); }, intersector_);
+        if (has_instances_) find_closest_instances(batch, count);
     }
     void find_occluded(RayBatch& batch, std::uint32_t count) const {
         std::visit([&](const auto& intersector) { intersector.find_occluded(batch, count); }, intersector_);
+        if (has_instances_) find_occluding_instances(batch, count);
     }
 
     /// Reads the same triangles from other arrays, which must outlive the tracer; the previous ones may be freed.
     void move_to(const SceneView& scene) {
         std::visit([&](auto& intersector) { intersector.move_to(scene); }, intersector_);
+        instances_ = scene.instances;
     }
 
     /// Display name: "dense (avx512)", "wide (avx512)", "embree 3.13.5", "bvh".
@@ -44,7 +48,13 @@ private:
 #endif
     static AnyIntersector choose(const SceneView& scene, IntersectorChoice choice, int threads);
 
+    /// Ray by ray, after the triangles that are in the scene directly.
+    void find_closest_instances(RayBatch& batch, std::uint32_t count) const;
+    void find_occluding_instances(RayBatch& batch, std::uint32_t count) const;
+
     AnyIntersector intersector_;
+    InstancesView instances_;
+    bool has_instances_;
 };
 static_assert(BatchIntersector<BatchTracer>);
 

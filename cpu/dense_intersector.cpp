@@ -19,10 +19,10 @@ bool same_bits(Vec3f a, Vec3f b) {
 }  // namespace
 
 DenseIntersector::DenseIntersector(const SceneView& scene, const LaneKernels& kernels) : kernels_(kernels) {
-    if (scene.triangles.count > kMaxDenseTriangles)
+    if (scene.direct_triangles() > kMaxDenseTriangles)
         throw Error(ErrorKind::Runtime, fmt::format("dense intersector: expected at most {} triangles, got {}",
-                                                    kMaxDenseTriangles, scene.triangles.count));
-    for (std::uint32_t i = 0; i < scene.triangles.count; ++i) {
+                                                    kMaxDenseTriangles, scene.direct_triangles()));
+    for (std::uint32_t i = 0; i < scene.direct_triangles(); ++i) {
         const Triangle& triangle = scene.triangles[i];
         const DenseTriangle dense{number_of(scene.positions[triangle.v0]), number_of(scene.positions[triangle.v1]),
                                   number_of(scene.positions[triangle.v2]), i};

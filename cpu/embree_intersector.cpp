@@ -101,9 +101,11 @@ void fill_geometry(RTCGeometry geometry, const SceneView& scene) {
     for (const Vec3f& position : scene.positions)
         for (int axis = 0; axis < 3; ++axis) *vertices++ = position[axis];
     auto* corners = static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(
-        geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t), scene.triangles.count));
-    for (const Triangle& triangle : scene.triangles)
+        geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t), scene.direct_triangles()));
+    for (std::uint32_t i = 0; i < scene.direct_triangles(); ++i) {
+        const Triangle& triangle = scene.triangles[i];
         for (const std::uint32_t vertex : {triangle.v0, triangle.v1, triangle.v2}) *corners++ = vertex;
+    }
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ static_assert(kNotedPixels >= kEmissionRays + 1);
 template <FeatureSet F>
 class BatchedRays {
 public:
-    BatchedRays(const SceneView& scene, const BatchTracer& tracer, const BvhIntersector& intersector)
+    BatchedRays(const SceneView& scene, const BatchTracer& tracer, const BvhIntersectorOf<F>& intersector)
         : scene_(scene), single_{scene, intersector}, solid_(scene, tracer, kNotedPixels), batch_(kNotedPixels) {}
 
     /// As SingleRays::trace().
@@ -43,7 +43,7 @@ public:
 
 private:
     const SceneView& scene_;
-    SingleRays<F, BvhIntersector> single_;
+    SingleRays<F, BvhIntersectorOf<F>> single_;
     SolidHits<F, BatchTracer> solid_;
     RayBatch batch_;
 };
@@ -88,7 +88,7 @@ template <FeatureSet F, class Trace>
 
 template <FeatureSet F>
 PassCounters run_emission_pass(const EmissionPass& pass) {
-    const BvhIntersector intersector{pass.setup.scene};
+    const BvhIntersectorOf<F> intersector{pass.setup.scene};
     const SceneView& scene = pass.setup.scene;
     std::atomic<std::uint64_t> total{0};
     const auto trace_all = [&](ChunkQueue& queue, const auto& trace) {

@@ -25,7 +25,7 @@ public:
         count_ = 0;
         for (std::uint32_t path = 0; path < count; ++path) {
             const std::uint32_t primitive = rays.primitive(path);
-            if (primitive == kNoPrimitive || !lights_->is_light(primitive)) continue;
+            if (!lights_->is_light(primitive)) continue;
             if (states[path].direction_pdf_sa > 0.0f) add(path, primitive, states[path]);
         }
         kernels_.find_light_densities(rows_of(context_.scene.light_tree, learned_.numbers()), hits_.data(),

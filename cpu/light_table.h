@@ -18,7 +18,8 @@ public:
     LightTable() = default;
     explicit LightTable(const SceneView& scene) {
         records_.reserve(scene.lights.count);
-        emitters_.resize((scene.triangles.count + kWordBits - 1) / kWordBits);
+        triangles_ = scene.direct_triangles();
+        emitters_.resize((triangles_ + kWordBits - 1) / kWordBits);
         for (const Light& light : scene.lights) {
             records_.push_back(record_of(scene, light));
             emitters_[light.primitive / kWordBits].bits |= std::uint64_t{1} << (light.primitive % kWordBits);
@@ -28,9 +29,11 @@ public:
     }
 
     bool empty() const { return records_.empty(); }
-    /// Whether a triangle is a light, and its number then: see pl::light_of(). In memory that the caches hold, since all hits are asked.
+    /// Whether a primitive, which may be kNoPrimitive, is a light, and its number then: see pl::light_of(). In memory that the caches
+    /// hold, since all hits are asked.
     bool is_light(std::uint32_t primitive) const {
-        return ((emitters_[primitive / kWordBits].bits >> (primitive % kWordBits)) & 1u) != 0;
+        return primitive < triangles_ &&
+               ((emitters_[primitive / kWordBits].bits >> (primitive % kWordBits)) & 1u) != 0;
     }
     std::uint32_t light_of(std::uint32_t primitive) const {
         const Emitters& word = emitters_[primitive / kWordBits];
@@ -65,6 +68,7 @@ private:
 
     std::vector<LightRecord> records_;
     std::vector<Emitters> emitters_;
+    std::uint32_t triangles_ = 0;  ///< those of instances emit nothing
 };
 
 }  // namespace pl

@@ -108,17 +108,29 @@ private:
             if (light_hits_.wanted()) light_hits_.find(rays_, states_, active_);
         }
         const auto end_of = [this](std::uint32_t first) { return std::min(first + kPathBlock, active_); };
-        if constexpr (TableGuided<M>) begin_lookups(0, 0, end_of(0));
+        const bool looks_ahead = TableGuided<M> && can_look_ahead();
+        if constexpr (TableGuided<M>) {
+            if (looks_ahead) begin_lookups(0, 0, end_of(0));
+        }
         for (std::uint32_t first = 0; first < active_; first += kPathBlock) {
             const std::uint32_t next = end_of(first);
             if constexpr (TableGuided<M>) {
-                begin_lookups(first + kPathBlock, next, end_of(next));
-                lookups_of(first).finish(setup_.scene, method_.field);
+                if (looks_ahead) {
+                    begin_lookups(first + kPathBlock, next, end_of(next));
+                    lookups_of(first).finish(setup_.scene, method_.field);
+                }
             }
             extend_block(first, next);
         }
     }
 
+    /// Points of instances are made, and their volumes found, path by path.
+    bool can_look_ahead() const {
+        if constexpr (F.has(Feature::Instances))
+            return setup_.scene.instances.empty();
+        else
+            return true;
+    }
     /// Begins the lookups of paths [begin, end) of the block of path `first`.
     void begin_lookups(std::uint32_t first, std::uint32_t begin, std::uint32_t end) {
         lookups_of(first).begin(setup_.scene, method_.field, rays_, begin, end);
@@ -182,13 +194,15 @@ private:
 
     SurfacePoint surface_at(std::uint32_t i, const Hit& hit) {
         if constexpr (TableGuided<M>) {
-            const LookupsAhead& lookups = lookups_of(i);
-            method_.is_found = lookups.is_found(i);
-            method_.found = lookups.found(i);
-            return lookups.template surface<F>(setup_.scene, hit, i);
-        } else {
-            return make_surface_point<F>(setup_.scene, hit, -states_[i].ray.direction);
+            method_.is_found = false;
+            if (can_look_ahead()) {
+                const LookupsAhead& lookups = lookups_of(i);
+                method_.is_found = lookups.is_found(i);
+                method_.found = lookups.found(i);
+                return lookups.template surface<F>(setup_.scene, hit, i);
+            }
         }
+        return make_surface_point<F>(setup_.scene, hit, -states_[i].ray.direction);
     }
 
     /// Plays roulette at the vertex `from` of path i. Its light and its direction are left to the block.

@@ -56,7 +56,7 @@ private:
 
     /// Stores the remainder of a ray behind the hole in slot `place`, whose previous ray has been read.
     void send_on(std::uint32_t place, const Ray& ray, const Hit& hit, Waiting from) {
-        rest_.set_ray(place, ray_behind(scene_, ray, hit));
+        rest_.set_ray(place, ray_behind<F>(scene_, ray, hit));
         waiting_[place] = {from.index, from.passed + hit.t};
     }
 

@@ -6,7 +6,7 @@ namespace {
 template <FeatureSet F>
 PassCounters run_view_pass(const ViewPass& pass) {
     const PassSetup& setup = pass.setup;
-    const BvhIntersector intersector{setup.scene};
+    const BvhIntersectorOf<F> intersector{setup.scene};
     const ViewContext context{.view = pass.view,
                               .shown = pass.shown,
                               .camera = pass.camera,

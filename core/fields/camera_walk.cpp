@@ -20,9 +20,9 @@ constexpr std::uint32_t kMostArrivals = 5;  ///< of a path; later ones carry lit
 void walk_path(const SceneView& scene, Ray ray, const Rng& rng, std::vector<SurfacePoint>& points) {
     const BvhIntersector intersector{scene};
     for (std::uint32_t vertex = 0; vertex < kMostArrivals; ++vertex) {
-        const Hit hit = closest_solid_hit<features(Feature::CutOuts)>(scene, intersector, ray);
+        const Hit hit = closest_solid_hit<kWalkEffects>(scene, intersector, ray);
         if (!hit.found()) return;
-        const SurfacePoint point = make_surface_point<FeatureSet{}>(scene, hit, -ray.direction);
+        const SurfacePoint point = make_surface_point<kPlaceFeatures>(scene, hit, -ray.direction);
         const LayeredBsdf bsdf = make_bsdf<kWalkEffects>(scene, point, hit_weights(hit), -ray.direction);
         if (!bsdf.scatters()) return;
         if (!bsdf.is_specular()) points.push_back(point);

@@ -10,6 +10,7 @@
 #include "core/kernel/base/rng.h"
 #include "core/kernel/integrator/holes.h"
 #include "core/kernel/shading/lights.h"
+#include "core/scene/bounds.h"
 
 namespace pl {
 namespace {
@@ -32,9 +33,14 @@ struct BoundingSphere {
 };
 
 BoundingSphere bounding_sphere(const HostScene& scene) {
-    if (scene.bvh_nodes.empty()) return {};
-    const BvhNode& root = scene.bvh_nodes.front();
-    return {0.5f * root.low + 0.5f * root.high, 0.5f * glm::length(root.high - root.low)};
+    Bounds bounds;
+    for (const auto* nodes : {&scene.bvh_nodes, &scene.instance_nodes}) {
+        if (nodes->empty()) continue;
+        bounds.add(nodes->front().low);
+        bounds.add(nodes->front().high);
+    }
+    if (bounds.empty()) return {};
+    return {0.5f * bounds.low + 0.5f * bounds.high, 0.5f * bounds.diagonal()};
 }
 
 /// Starts at a light with a cosine-distributed direction; at two-sided lights, from either side with probability 1/2.
@@ -119,10 +125,10 @@ private:
     }
     void walk(Ray ray, const Rng& rng) {
         for (std::uint32_t vertex = 0; vertex < kMaxVertices; ++vertex) {
-            const Hit hit = closest_solid_hit<features(Feature::CutOuts)>(view_, intersector_, ray);
+            const Hit hit = closest_solid_hit<kWalkEffects>(view_, intersector_, ray);
             if (!hit.found()) return;
-            const std::uint32_t surface = surfaces_.of_triangle[hit.primitive];
-            const SurfacePoint point = make_surface_point<FeatureSet{}>(view_, hit, -ray.direction);
+            const std::uint32_t surface = surfaces_.of_primitive(hit.primitive);
+            const SurfacePoint point = make_surface_point<kPlaceFeatures>(view_, hit, -ray.direction);
             const LayeredBsdf bsdf = make_bsdf<kWalkEffects>(view_, point, hit_weights(hit), -ray.direction);
             if (!bsdf.scatters()) return;
             if (surface != kNoSurface) count(point.front ? arrivals_[surface].front : arrivals_[surface].back);

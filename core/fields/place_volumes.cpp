@@ -78,6 +78,18 @@ void for_each_point(const SceneView& scene, const Surface& surface, const Side& 
     }
 }
 
+/// How many of the volumes are placed among the `points` of paths from the camera: half of them if there are more sides of surfaces than
+/// volumes, and on instances, which have no surfaces here, as many as paths arrive there.
+std::uint32_t volumes_by_paths(const SiteSource& source, bool has_many_sides, std::uint32_t volumes,
+                               std::vector<SurfacePoint>& points) {
+    if (source.camera == nullptr || (!has_many_sides && source.scene.instances.empty())) return 0;
+    points = walk_from_camera(source.scene, *source.camera, source.threads);
+    if (has_many_sides) return volumes / 2;
+    const std::size_t all = std::max<std::size_t>(points.size(), 1);
+    std::erase_if(points, [&](const SurfacePoint& point) { return point.primitive < source.scene.planes.size(); });
+    return static_cast<std::uint32_t>(volumes * points.size() / all);
+}
+
 }  // namespace
 
 void for_each_site(const SiteSource& source, std::uint32_t density,
@@ -85,15 +97,14 @@ void for_each_site(const SiteSource& source, std::uint32_t density,
     const HostScene& scene = source.scene;
     std::vector<Side> sides = lit_sides_of(source.surfaces);
     const auto volumes = static_cast<std::uint32_t>(volume_count(source.settings, scene.light_clusters.size()));
-    const std::uint32_t by_paths = source.camera != nullptr && sides.size() > volumes ? volumes / 2 : 0;
+    std::vector<SurfacePoint> points;
+    const std::uint32_t by_paths = volumes_by_paths(source, sides.size() > volumes, volumes, points);
     share_out(sides, volumes - by_paths);
     for (const Side& side : sides)
         for_each_point(scene.view(), source.surfaces.surfaces.list[side.surface], side, density * side.volumes,
                        visit);
     if (by_paths == 0) return;
-    const std::vector<SurfacePoint> sites =
-        choose_sites(walk_from_camera(scene, *source.camera, source.threads), density * by_paths);
-    std::ranges::for_each(sites, visit);
+    std::ranges::for_each(choose_sites(std::move(points), density * by_paths), visit);
 }
 
 HostVolumes place_volumes(const SiteSource& source) {

@@ -25,12 +25,15 @@ Corners collect_corners(const HostScene& scene) {
     corners.point_of.reserve(scene.positions.size());
     for (const Vec3f& position : scene.positions) corners.point_of.push_back(numbers.number_of(position));
     corners.start.assign(numbers.count() + 1, 0);
-    for (const Triangle& t : scene.triangles)
+    const auto triangles = static_cast<std::uint32_t>(scene.planes.size());
+    for (std::uint32_t i = 0; i < triangles; ++i) {
+        const Triangle& t = scene.triangles[i];
         for (const std::uint32_t v : {t.v0, t.v1, t.v2}) ++corners.start[corners.point_of[v] + 1];
+    }
     std::partial_sum(corners.start.begin(), corners.start.end(), corners.start.begin());
     corners.triangles.resize(corners.start.back());
     std::vector<std::uint32_t> next(corners.start.begin(), corners.start.end() - 1);
-    for (std::uint32_t i = 0; i < scene.triangles.size(); ++i) {
+    for (std::uint32_t i = 0; i < triangles; ++i) {
         const Triangle& t = scene.triangles[i];
         for (const std::uint32_t v : {t.v0, t.v1, t.v2}) corners.triangles[next[corners.point_of[v]]++] = i;
     }
@@ -49,18 +52,18 @@ bool may_reflect(const SceneView& scene, std::uint32_t material) {
 class SurfaceGrower {
 public:
     SurfaceGrower(const HostScene& scene, int threads)
-        : scene_(scene), view_(scene.view()), corners_(collect_corners(scene)), areas_(scene.triangles.size()) {
-        for_indices(view_.triangles.count, threads, [&](std::uint32_t i) {
+        : scene_(scene), view_(scene.view()), corners_(collect_corners(scene)), areas_(scene.planes.size()) {
+        for_indices(view_.direct_triangles(), threads, [&](std::uint32_t i) {
             if (may_reflect(view_, scene_.triangles[i].material)) areas_[i] = area_of(view_, i);
         });
-        found_.of_triangle.assign(scene.triangles.size(), kNoSurface);
+        found_.of_triangle.assign(scene.planes.size(), kNoSurface);
         last_visitor_.assign(corners_.start.size(), kNoSurface);
     }
 
     Surfaces grow_all() {
-        for (std::uint32_t i = 0; i < scene_.triangles.size(); ++i)
+        for (std::uint32_t i = 0; i < view_.direct_triangles(); ++i)
             if (found_.of_triangle[i] == kNoSurface && areas_[i] > 0.0) grow(i);
-        for (std::uint32_t i = 0; i < scene_.triangles.size(); ++i)
+        for (std::uint32_t i = 0; i < view_.direct_triangles(); ++i)
             if (const std::uint32_t number = found_.of_triangle[i]; number != kNoSurface) {
                 found_.list[number].triangles.push_back(i);
                 found_.list[number].area += areas_[i];

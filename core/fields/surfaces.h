@@ -1,4 +1,5 @@
-// The reflecting surfaces that radiance volumes are placed on: connected triangles with nearly the same normal.
+// The reflecting surfaces that radiance volumes are placed on: connected triangles, of those that are in the scene directly, with nearly
+// the same normal.
 #pragma once
 
 #include <array>
@@ -8,7 +9,7 @@
 
 namespace pl {
 
-/// Triangle of no surface: it reflects nothing or has no area.
+/// Primitive of no surface: it reflects nothing, has no area, or is of an instance.
 inline constexpr std::uint32_t kNoSurface = 0xffffffffu;
 
 /// Each normal of a surface deviates from that of its first triangle by at most half of the largest angle between the
@@ -25,6 +26,10 @@ struct Surface {
 struct Surfaces {
     std::vector<Surface> list;               ///< in the order of their first triangles
     std::vector<std::uint32_t> of_triangle;  ///< [triangle], index into `list` or kNoSurface
+
+    std::uint32_t of_primitive(std::uint32_t primitive) const {
+        return primitive < of_triangle.size() ? of_triangle[primitive] : kNoSurface;
+    }
 };
 
 /// Triangles are connected if they share a position, whether or not the file lists it twice.

@@ -139,7 +139,7 @@ private:
         const TriangleCorners corners{scene_.positions, scene_.triangles[primitive]};
         const Ball ball = ball_around(corners);
         for (const bool front : {true, false}) {
-            const std::uint32_t side = front ? primitive : primitive + scene_.triangles.count;
+            const std::uint32_t side = front ? primitive : primitive + scene_.direct_triangles();
             normal_ = (front ? 1.0f : -1.0f) * scene_.planes[primitive].normal;
             const NearestSets::Only only = sets_.find_only(ball, normal_);
             places_[side] = only.is_known ? VolumePlace{VolumePlace::Kind::Node, only.node}
@@ -259,7 +259,7 @@ bool in_range(const HostVolumes& volumes) {
 
 /// [side], fronts first.
 std::vector<std::uint32_t> count_on_sides(const HostScene& scene, const HostVolumes& volumes) {
-    const std::size_t triangles = scene.triangles.size();
+    const std::size_t triangles = scene.planes.size();
     std::vector<std::uint32_t> own(2 * triangles);
     for (const SurfacePoint& site : volumes.sites)
         if (site.primitive < triangles) ++own[site.primitive + (site.front ? 0 : triangles)];

@@ -15,8 +15,9 @@ inline constexpr std::uint32_t kWalkChunk = 256;
 inline constexpr std::uint32_t kLightWalk = 0;
 inline constexpr std::uint32_t kCameraWalk = 1;
 
-/// Effects of the BSDFs that walks sample: neither colors nor the direction of facets matter to them.
-inline constexpr FeatureSet kWalkEffects = kLobeFeatures.with(Feature::Blends);
+/// Effects that walks know: neither colors nor the direction of facets matter to them.
+inline constexpr FeatureSet kWalkEffects =
+    kLobeFeatures.with(Feature::Blends).with(Feature::CutOuts).with(kPlaceFeatures);
 
 /// The direction in which a walk leaves a surface; black if it ends there. u in [0,1)^4.
 inline Vec3f leave_surface(const SurfacePoint& point, const LayeredBsdf& bsdf, Vec4f u) {

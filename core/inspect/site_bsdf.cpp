@@ -5,10 +5,10 @@ namespace {
 
 /// Barycentric weights of a point of a triangle.
 Vec3f weights_of(const SceneView& scene, const SurfacePoint& point) {
-    const Triangle& triangle = scene.triangles[point.primitive];
-    const Vec3d p0{scene.positions[triangle.v0]};
-    const Vec3d edge1 = Vec3d{scene.positions[triangle.v1]} - p0;
-    const Vec3d edge2 = Vec3d{scene.positions[triangle.v2]} - p0;
+    const CornersOf<One> corners = flat_primitive<kEveryFeature>(scene, point.primitive).corners;
+    const Vec3d p0{pack(corners.p0)};
+    const Vec3d edge1 = Vec3d{pack(corners.p1)} - p0;
+    const Vec3d edge2 = Vec3d{pack(corners.p2)} - p0;
     const Vec3d offset = Vec3d{point.position} - p0;
     const Vec3d normal = glm::cross(edge1, edge2);
     const double area2 = glm::dot(normal, normal);

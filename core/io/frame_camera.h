@@ -11,7 +11,7 @@ namespace pl {
 /// - Everything else is seen in three-quarter view: from the front, front_of(), turned by 35 degrees to the right,
 ///   or from behind or from the left if more front-facing area is visible there. From 20 degrees above the horizon, or
 ///   40 if the scene is flat.
-/// The scene must have a triangle.
+/// Instances count as boxes around them. The scene must have a triangle.
 CameraDescription frame_camera(const SceneDescription& scene, float fov_deg = 40.0f);
 
 }  // namespace pl

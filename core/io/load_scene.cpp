@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include "core/base/error.h"
+#include "core/io/emitting_meshes.h"
 #include "core/io/files.h"
 #include "core/io/listed_cameras.h"
 #include "core/io/mesh_file.h"
@@ -46,7 +47,7 @@ SceneDescription load_file(const fs::path& path, const LoadSettings& asked) {
         return load_scene_json(path, asked);
     }
     if (suffix_of(path) == ".xml") {
-        SceneDescription scene = load_mitsuba(path);
+        SceneDescription scene = load_mitsuba(path, asked.most_copied_triangles);
         scene.name = path.stem().string();
         scene.up = asked.up_axis ? up_direction(*asked.up_axis, scene) : scene.up;
         if (scene.cameras.empty()) {
@@ -54,7 +55,7 @@ SceneDescription load_file(const fs::path& path, const LoadSettings& asked) {
         }
         return scene;
     }
-    SceneDescription scene = load_mesh(path, nullptr, asked.map_kd);
+    SceneDescription scene = load_mesh(path, nullptr, asked);
     scene.name = path.stem().string();
     const UpAxis standard = is_gltf(path) ? UpAxis::Y : UpAxis::Auto;
     scene.up = up_direction(asked.up_axis.value_or(standard), scene);
@@ -147,6 +148,7 @@ SceneDescription load_scene(const std::string& name_or_path, const fs::path& ass
     if (!asked.materials.empty()) {
         read_material_file(asked.materials, scene);
     }
+    copy_emitting_meshes(scene);
     validate_scene(scene);
     warn_of_missing_uvs(scene);
     const glm::vec3 up = usable_up(scene.camera);

@@ -13,7 +13,7 @@ namespace pl {
 /// Opens an .obj file, a scene .json file, or a scene of assets_dir/scenes by its name; the result passes
 /// validate_scene(). A scene NAME is the file scenes/NAME/NAME.json. An .obj alone gets the camera of frame_camera();
 /// an up vector parallel to the viewing direction is replaced, with a warning. Knobs are applied by read_knobs(), then
-/// LoadSettings::materials. A
+/// LoadSettings::materials; meshes that emit by these are copied, see copy_emitting_meshes(). A
 /// scene without light gets that of add_default_light(), unless `asked` or its setting default-light say off; a
 /// warning tells of either.
 /// Throws Error(Input) if there is no such file or scene (the message names the nearest known one) or its content is

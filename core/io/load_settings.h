@@ -1,6 +1,7 @@
 // Choices with which a scene is opened.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 
@@ -9,6 +10,9 @@
 #include "core/scene/up_axis.h"
 
 namespace pl {
+
+/// Copies are faster to trace than instances; these are about half a gigabyte of them.
+inline constexpr std::uint64_t kMostCopiedTriangles = 2'000'000;
 
 /// Where a choice is empty, the scene file decides.
 struct LoadSettings {
@@ -19,6 +23,9 @@ struct LoadSettings {
     std::optional<bool>
         default_light{};              ///< light a scene that has no light; on unless the scene file says otherwise
     std::optional<UpAxis> up_axis{};  ///< of default camera and default light; guessed unless it does
+    /// Of glTF and Mitsuba files. If the meshes that a file shows more than once have at most so many triangles with all their copies, they
+    /// are copied; else they are kept once, see KeptMeshes.
+    std::uint64_t most_copied_triangles = kMostCopiedTriangles;
 };
 
 }  // namespace pl

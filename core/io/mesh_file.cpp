@@ -16,8 +16,10 @@ bool is_scene_suffix(std::string_view suffix) {
     return suffix == ".obj" || suffix == ".json" || suffix == ".xml" || is_gltf_suffix(suffix);
 }
 
-SceneDescription load_mesh(const std::filesystem::path& path, MeshGroups* groups, MapKd map_kd, ObjNormals normals) {
-    return is_gltf(path) ? load_gltf(path, groups) : load_obj(path, groups, map_kd, normals);
+SceneDescription load_mesh(const std::filesystem::path& path, MeshGroups* groups, const LoadSettings& asked,
+                           ObjNormals normals) {
+    return is_gltf(path) ? load_gltf(path, groups, asked.most_copied_triangles)
+                         : load_obj(path, groups, asked.map_kd, normals);
 }
 
 }  // namespace pl

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <string_view>
 
+#include "core/io/load_settings.h"
 #include "core/io/obj.h"
 
 namespace pl {
@@ -14,7 +15,7 @@ bool is_gltf(const std::filesystem::path& path);
 bool is_scene_suffix(std::string_view suffix);
 
 /// load_gltf() or load_obj(), by the suffix. `normals` are of OBJ files.
-SceneDescription load_mesh(const std::filesystem::path& path, MeshGroups* groups, MapKd map_kd,
+SceneDescription load_mesh(const std::filesystem::path& path, MeshGroups* groups, const LoadSettings& asked,
                            ObjNormals normals = ObjNormals::Any);
 
 }  // namespace pl

@@ -144,8 +144,11 @@ SceneDescription load_scene_json(const std::filesystem::path& path, const LoadSe
     if (!obj || obj->empty()) {
         file.fail("/obj", "expected the name of an OBJ or glTF file");
     }
+    // Groups make the loader copy meshes: knobs move groups, and the image of vertex colors has a texel for each copy's vertex.
+    const bool needs_groups = file.has("/knobs") || file.has("/vertex_colors");
     MeshGroups groups;
-    SceneDescription scene = load_mesh(path.parent_path() / *obj, &groups, asked.map_kd, read_normals(file));
+    SceneDescription scene =
+        load_mesh(path.parent_path() / *obj, needs_groups ? &groups : nullptr, asked, read_normals(file));
     scene.source = path;
     scene.files.push_back(path);
     scene.name = file.text("/name").value_or(path.stem().string());

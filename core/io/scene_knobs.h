@@ -8,7 +8,7 @@
 namespace pl {
 
 /// Reads the member `knobs` of a scene file into scene.knobs and applies the values `asked`. A knob at its default
-/// changes no bit of the mesh. Otherwise, with `turned` = value - default, it applies in this order
+/// changes no bit of the mesh. The scene has no instances. Otherwise, with `turned` = value - default, it applies in this order
 ///   moves   [{groups, by: [x, y, z]}]            by `turned` times this vector
 ///   turns   [{groups, about, axis, by_deg}]      by `turned` times this angle about an axis through a point,
 ///                                                right-handed

@@ -14,6 +14,7 @@
 #include "core/io/camera_file.h"
 #include "core/io/files.h"
 #include "core/io/json_file.h"
+#include "core/io/kept_meshes.h"
 #include "core/io/listed_cameras.h"
 #include "core/io/scene_lights.h"
 #include "core/io/scene_materials.h"
@@ -21,6 +22,7 @@
 #include "core/io/write_mesh.h"
 #include "core/io/write_texture.h"
 #include "core/scene/default_light.h"
+#include "core/scene/instances.h"
 #include "core/scene/up_axis.h"
 
 namespace pl {
@@ -63,6 +65,18 @@ private:
     fs::path target_;
     fs::path path_;
 };
+
+/// OBJ files hold no instances.
+SceneDescription with_copies(const SceneDescription& scene) {
+    const std::uint64_t count = shown_triangles(scene);
+    if (count > kMostStoredTriangles)
+        throw Error(ErrorKind::Input, fmt::format("{}: scene files hold no instances but copies: expected at most {} "
+                                                  "triangles with those of all instances, got {}",
+                                                  scene.source.string(), kMostStoredTriangles, count));
+    SceneDescription copied = scene;
+    expand_instances(copied);
+    return copied;
+}
 
 class SceneWriter {
 public:
@@ -186,8 +200,9 @@ SceneParts write_scene(const SceneDescription& scene, const fs::path& path) {
         throw Error(ErrorKind::Usage, fmt::format("{}: expected a name in UTF-8", path.string()));
     require_free(path);
     require_free(folder);
+    const SceneDescription copied = scene.meshes.empty() ? SceneDescription{} : with_copies(scene);
     HiddenFolder parts(folder);
-    SceneWriter writer(scene, parts.path(), folder.filename().string());
+    SceneWriter writer(scene.meshes.empty() ? scene : copied, parts.path(), folder.filename().string());
     const Json document = writer.document();
     parts.become_target();
     try {

@@ -18,8 +18,9 @@ struct SceneParts {
 /// renders to the same bits: mesh, normals, materials, texels, far lights, camera, listed cameras and settings are the same. Knobs are
 /// left out, the mesh has their values; a default light is written as the environment map that it is. All is there or
 /// nothing: the folder appears when it is complete, the scene file after it.
-/// Expects a valid scene. Throws Error(Usage) for a name that does not end with .json or is taken, Error(Runtime) if a
-/// file cannot be written.
+/// Instances are written as copies, whose primitives and corners are the same. Expects a valid scene. Throws Error(Usage) for a name that
+/// does not end with .json or is taken, Error(Input) for a scene of more than kMostStoredTriangles with those of all instances,
+/// Error(Runtime) if a file cannot be written.
 SceneParts write_scene(const SceneDescription& scene, const std::filesystem::path& path);
 
 }  // namespace pl

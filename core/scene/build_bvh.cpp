@@ -43,24 +43,19 @@ struct BuildSet {
 /// other.
 class BuildTriangles {
 public:
-    BuildTriangles(Span<const Vec3f> positions, Span<const Triangle> triangles, int threads)
-        : buffers_{std::make_unique_for_overwrite<BuildTriangle[]>(triangles.count),
-                   std::make_unique_for_overwrite<BuildTriangle[]>(triangles.count)},
-          root_{.count = triangles.count} {
-        const auto corner = [&](std::uint32_t vertex) {
-            const Vec3f p = positions[vertex];
-            return BuildVector{p.x, p.y, p.z, 0.0f};
-        };
+    /// `box_of(i)`: the box of triangle i.
+    template <class BoxOf>
+    BuildTriangles(std::uint32_t count, int threads, const BoxOf& box_of)
+        : buffers_{std::make_unique_for_overwrite<BuildTriangle[]>(count),
+                   std::make_unique_for_overwrite<BuildTriangle[]>(count)},
+          root_{.count = count} {
         const auto fill = [&](BuildSet& chunk, IndexRange range) {
             for (std::uint32_t i = range.begin; i < range.end; ++i) {
-                const Triangle& t = triangles[i];
-                BuildBox box;
-                for (const std::uint32_t vertex : {t.v0, t.v1, t.v2}) box.add(corner(vertex));
-                buffers_[0][i] = {box, i};
+                buffers_[0][i] = {box_of(i), i};
                 chunk.add(buffers_[0][i]);
             }
         };
-        for (const BuildSet& chunk : sums_of_chunks(triangles.count, kElementChunk, threads, BuildSet{}, fill)) {
+        for (const BuildSet& chunk : sums_of_chunks(count, kElementChunk, threads, BuildSet{}, fill)) {
             root_.bounds.add(chunk.bounds);
             root_.centers.add(chunk.centers);
         }
@@ -122,9 +117,9 @@ private:
 /// Turns sets into leaves or splits them. Not for two threads at once.
 class SetSplitter {
 public:
-    /// Leaves write the numbers of their triangles.
-    SetSplitter(const BuildTriangles& triangles, Span<std::uint32_t> numbers)
-        : triangles_(triangles), numbers_(numbers) {}
+    /// Leaves, of at most `most` triangles, write the numbers of these.
+    SetSplitter(const BuildTriangles& triangles, Span<std::uint32_t> numbers, std::uint32_t most)
+        : triangles_(triangles), numbers_(numbers), most_(most) {}
 
     /// Fills the node, except for the children of an inner one; their sets are given to on_inner(lower, upper).
     template <class OnInner>
@@ -134,7 +129,7 @@ public:
         const Binning binning(set.centers);
         const BuildSplit best = set.count < 2 ? BuildSplit{} : finder_.find(triangles_.of(set), binning);
         const double split_cost = kNodeCost + best.cost / set.bounds.half_area();
-        if (set.count <= kMaxLeafSize && !(split_cost < static_cast<double>(set.count))) {
+        if (set.count <= most_ && !(split_cost < static_cast<double>(set.count))) {
             node.first = set.first;
             node.count = set.count;
             std::uint32_t at = set.first;
@@ -155,6 +150,7 @@ private:
 
     const BuildTriangles& triangles_;
     Span<std::uint32_t> numbers_;
+    std::uint32_t most_;
     SplitFinder finder_;
 };
 
@@ -169,7 +165,8 @@ struct Branch {
 /// upper one.
 class BranchBuilder {
 public:
-    BranchBuilder(const BuildTriangles& triangles, Span<std::uint32_t> numbers) : splitter_(triangles, numbers) {}
+    BranchBuilder(const BuildTriangles& triangles, Span<std::uint32_t> numbers, std::uint32_t most)
+        : splitter_(triangles, numbers, most) {}
 
     void build_subtree(const BuildSet& root, Branch& branch) {
         std::vector<BvhNode>& nodes = branch.below;
@@ -232,13 +229,14 @@ std::size_t count_nodes(const Branch& branch) {
     return branch.lower ? 2 + count_nodes(*branch.lower) + count_nodes(*branch.upper) : branch.below.size();
 }
 
-void build_branches(const BuildTriangles& triangles, Span<std::uint32_t> numbers, Branch& root, int threads) {
+void build_branches(const BuildTriangles& triangles, Span<std::uint32_t> numbers, std::uint32_t most, Branch& root,
+                    int threads) {
     struct Task {
         BuildSet set;
         Branch* branch;
     };
     run_tasks(Task{triangles.root(), &root}, threads, [&](const Task& task, auto&& push) {
-        BranchBuilder builder(triangles, numbers);
+        BranchBuilder builder(triangles, numbers, most);
         if (task.set.count <= kSubtree) return builder.build_subtree(task.set, *task.branch);
         builder.split(task.set, *task.branch, [&](const BuildSet& lower, const BuildSet& upper) {
             push(Task{upper, task.branch->upper.get()});
@@ -247,23 +245,42 @@ void build_branches(const BuildTriangles& triangles, Span<std::uint32_t> numbers
     });
 }
 
-}  // namespace
-
-Bvh build_bvh(Span<const Vec3f> positions, Span<const Triangle> triangles, int threads) {
-    if (triangles.count > kMaxBvhTriangles)
+/// `most`: triangles of a leaf.
+template <class BoxOf>
+Bvh build(std::uint32_t count, std::uint32_t most, int threads, const BoxOf& box_of) {
+    if (count > kMaxBvhTriangles)
         throw Error(ErrorKind::Input, fmt::format("bounding volume hierarchy: expected at most {} triangles, got {}",
-                                                  kMaxBvhTriangles, triangles.count));
-    if (triangles.count == 0) return {};
+                                                  kMaxBvhTriangles, count));
+    if (count == 0) return {};
     if (threads <= 0) threads = usable_threads();
     Bvh bvh;
-    bvh.primitives.resize(triangles.count);
+    bvh.primitives.resize(count);
     Branch root;
-    build_branches(BuildTriangles(positions, triangles, threads), view_of(bvh.primitives), root,
-                   triangles.count <= kSubtree ? 1 : threads);
+    build_branches(BuildTriangles(count, threads, box_of), view_of(bvh.primitives), most, root,
+                   count <= kSubtree ? 1 : threads);
     bvh.nodes.reserve(1 + count_nodes(root));
     bvh.nodes.emplace_back();
     append_branch(root, 0, bvh.nodes);
     return bvh;
+}
+
+BuildVector build_vector(const Vec3f& p) { return BuildVector{p.x, p.y, p.z, 0.0f}; }
+
+}  // namespace
+
+Bvh build_bvh(Span<const Vec3f> positions, Span<const Triangle> triangles, int threads) {
+    return build(triangles.count, kMaxLeafSize, threads, [&](std::uint32_t i) {
+        const Triangle& t = triangles[i];
+        BuildBox box;
+        for (const std::uint32_t vertex : {t.v0, t.v1, t.v2}) box.add(build_vector(positions[vertex]));
+        return box;
+    });
+}
+
+Bvh build_bvh(Span<const Bounds> boxes, int threads) {
+    return build(boxes.count, 1, threads, [&](std::uint32_t i) {
+        return BuildBox{build_vector(boxes[i].low), build_vector(boxes[i].high)};
+    });
 }
 
 }  // namespace pl

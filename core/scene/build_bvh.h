@@ -5,6 +5,7 @@
 
 #include "core/kernel/geometry/bvh_view.h"
 #include "core/kernel/scene/scene_view.h"
+#include "core/scene/bounds.h"
 
 namespace pl {
 
@@ -17,5 +18,8 @@ struct Bvh {
 /// kMaxBvhDepth for any input. The same to the bit for any number of threads; 0: all of the machine. Throws Error(Input) for
 /// more than kMaxBvhTriangles.   [Wald 2007, "On fast Construction of SAH-based Bounding Volume Hierarchies"]
 Bvh build_bvh(Span<const Vec3f> positions, Span<const Triangle> triangles, int threads = 0);
+
+/// The same over boxes, for things that are more than a triangle: one to a leaf.
+Bvh build_bvh(Span<const Bounds> boxes, int threads = 0);
 
 }  // namespace pl

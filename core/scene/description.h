@@ -174,6 +174,20 @@ struct TriangleDescription {
     static constexpr std::uint32_t kNoUv = 0xffffffffu;
 };
 
+/// Triangles that only instances show: a range of SceneDescription::triangles. Corners and normals are in the space of the mesh. Its
+/// materials emit nothing.
+struct MeshDescription {
+    std::string name;
+    std::uint32_t first_triangle = 0;
+    std::uint32_t triangle_count = 0;
+};
+
+/// A mesh once more in the scene. `to_world` is invertible and does not mirror: its determinant is above 0.
+struct InstanceDescription {
+    std::uint32_t mesh = 0;  ///< index into SceneDescription::meshes
+    glm::mat4x3 to_world{1.0f};
+};
+
 /// A pinhole, or a thin lens if it has an aperture. `fov_deg` is the full vertical angle.
 struct CameraDescription {
     glm::vec3 eye{0.0f, 0.0f, 1.0f};
@@ -217,7 +231,9 @@ struct SceneDescription {
     std::vector<glm::vec3> vertex_colors;
     std::vector<glm::vec3> normals;
     std::vector<glm::vec2> uvs;
-    std::vector<TriangleDescription> triangles;
+    std::vector<TriangleDescription> triangles;    ///< those that are in the scene directly, then those of all meshes
+    std::vector<MeshDescription> meshes;           ///< in the order of their triangles, without gaps
+    std::vector<InstanceDescription> instances;
     std::vector<MaterialDescription> materials;
     std::vector<TextureDescription> textures;
     CameraDescription camera;

@@ -51,6 +51,11 @@ std::string many_lights_of(const SceneDescription& scene) {
     return fmt::format("{} triangles emit light, more than {}", emitting, kFewLights);
 }
 
+std::string instances_of(const SceneDescription& scene) {
+    return fmt::format("{} instances show {} mesh{}", scene.instances.size(), scene.meshes.size(),
+                       scene.meshes.size() == 1 ? "" : "es");
+}
+
 }  // namespace
 
 std::string reason_of(Feature feature, const SceneDescription& scene, const CameraDescription& camera) {
@@ -77,6 +82,7 @@ std::string reason_of(Feature feature, const SceneDescription& scene, const Came
     case Feature::Blends: return materials_that(scene, [](const auto& m) { return m.blend.is_any(); });
     case Feature::Anisotropy: return materials_that(scene, [](const auto& m) { return m.is_anisotropic(); });
     case Feature::Absorption: return materials_that(scene, [](const auto& m) { return m.absorbs(); });
+    case Feature::Instances: return instances_of(scene);
     }
     return "";
 }

@@ -8,6 +8,7 @@
 #include "core/scene/blends.h"
 #include "core/scene/connections.h"
 #include "core/scene/glass.h"
+#include "core/scene/instances.h"
 #include "core/scene/position_numbers.h"
 
 namespace pl {
@@ -27,15 +28,16 @@ bool is_solid(const SceneDescription& scene, std::uint32_t material) {
     return !any_shown(scene.materials, material, [](const MaterialDescription& m) { return is_glass(m.kind); });
 }
 
-/// Edges of all opaque triangles with an area, sorted by their ends.
+/// Edges of all opaque direct triangles with an area, sorted by their ends.
 std::vector<Edge> edges_of(const SceneDescription& scene) {
     PositionNumbers numbers(scene.positions.size());
     std::vector<std::uint32_t> places;  // [position], the same for equal ones
     places.reserve(scene.positions.size());
     for (const glm::vec3& position : scene.positions) places.push_back(numbers.number_of(Vec3f{position}));
     std::vector<Edge> edges;
-    edges.reserve(3 * scene.triangles.size());
-    for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) {
+    const std::uint32_t triangles = direct_triangles(scene);
+    edges.reserve(3 * std::size_t{triangles});
+    for (std::uint32_t t = 0; t < triangles; ++t) {
         const TriangleDescription& triangle = scene.triangles[t];
         if (!is_solid(scene, triangle.material)) continue;
         const std::array<std::uint32_t, 3> corner{places[triangle.vertex[0]], places[triangle.vertex[1]],
@@ -67,14 +69,15 @@ bool crosses(glm::dvec3 origin, glm::dvec3 direction, glm::dvec3 a, glm::dvec3 b
 
 Enclosure::Enclosure(const SceneDescription& scene) {
     const std::vector<Edge> edges = edges_of(scene);
-    Connections connections(scene.triangles.size());
+    const std::uint32_t triangles = direct_triangles(scene);
+    Connections connections(triangles);
     std::vector<std::uint32_t> at_border;
     for (std::size_t first = 0, end = 0; first < edges.size(); first = end) {
         while (end < edges.size() && edges[end].ends() == edges[first].ends())
             connections.join(edges[first].triangle, edges[end++].triangle);
         if ((end - first) % 2 != 0) at_border.push_back(edges[first].triangle);
     }
-    std::vector<bool> is_open(scene.triangles.size());
+    std::vector<bool> is_open(triangles);
     for (const std::uint32_t triangle : at_border) is_open[connections.root(triangle)] = true;
 
     std::vector<std::pair<std::uint32_t, std::uint32_t>> closed;  // (surface, triangle)

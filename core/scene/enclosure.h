@@ -8,8 +8,8 @@
 
 namespace pl {
 
-/// The closed opaque surfaces of a scene: connected components of triangles in which an even number of triangles
-/// share every edge. Vertices at equal positions count as one.
+/// The closed opaque surfaces of a scene without its instances: connected components of direct triangles in which an even number of
+/// triangles share every edge. Vertices at equal positions count as one.
 class Enclosure {
 public:
     /// Time and memory of a sort of all edges.

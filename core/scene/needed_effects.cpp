@@ -33,6 +33,7 @@ std::string_view name_of(Feature feature) {
     case Feature::ThinPanes: return "thin-panes";
     case Feature::Blends: return "blends";
     case Feature::Anisotropy: return "anisotropy";
+    case Feature::Instances: return "instances";
     }
     return "";
 }
@@ -48,6 +49,7 @@ FeatureSet needed_effects(const HostScene& scene) {
     if (!scene.opacities.empty()) set = set.with(Feature::CutOuts);
     if (!scene.blends.empty()) set = set.with(Feature::Blends);
     if (!scene.anisotropies.empty()) set = set.with(Feature::Anisotropy);
+    if (!scene.instances.empty()) set = set.with(Feature::Instances);
     if (!scene.normal_maps.empty()) set = set.with(Feature::NormalMaps);
     if (!scene.light_nodes.empty()) set = set.with(Feature::ManyLights);
     if (!scene.delta_lights.empty()) set = set.with(Feature::DeltaLights);

@@ -10,7 +10,10 @@
 #include "core/kernel/shading/bsdf.h"
 #include "core/scene/build_bvh.h"
 #include "core/scene/directional_albedo.h"
+#include "core/scene/instance_boxes.h"
+#include "core/scene/instances.h"
 #include "core/scene/pack_far_lights.h"
+#include "core/scene/pack_instances.h"
 #include "core/scene/pack_light_tree.h"
 #include "core/scene/pack_textures.h"
 #include "core/scene/triangle_planes.h"
@@ -36,8 +39,12 @@ void pack_triangles(const SceneDescription& scene, HostScene& packed) {
         const TriangleDescription& t = scene.triangles[i];
         packed.triangles[i] = {t.vertex.x, t.vertex.y, t.vertex.z, t.material};
     });
-    packed.planes =
-        make_triangle_planes(view_of(scene.positions), view_of(std::as_const(packed.triangles)), usable_threads());
+    const Span<const Triangle> all = view_of(std::as_const(packed.triangles));
+    const Span<const Triangle> direct{all.data, direct_triangles(scene)};
+    const double edge =
+        std::max(longest_edge(view_of(scene.positions), direct, usable_threads()), longest_instance_edge(scene, all));
+    packed.planes = make_triangle_planes(view_of(scene.positions), direct, edge, usable_threads());
+    if (!scene.instances.empty()) packed.longest_edge = edge;
 }
 
 void pack_normals(const SceneDescription& scene, HostScene& packed) {
@@ -53,7 +60,8 @@ void pack_normals(const SceneDescription& scene, HostScene& packed) {
             packed.triangle_normals.push_back({t.normal.x, t.normal.y, t.normal.z});
         } else {
             const auto flat = static_cast<std::uint32_t>(packed.normals.size());
-            packed.normals.push_back(packed.planes[i].normal);
+            // None of a mesh: its geometric normal depends on the instance.
+            packed.normals.push_back(i < packed.planes.size() ? packed.planes[i].normal : Vec3f{0.0f});
             packed.triangle_normals.push_back({flat, flat, flat});
         }
     }
@@ -164,7 +172,7 @@ void pack_absorption(const SceneDescription& scene, HostScene& packed) {
 void pack_lights(HostScene& packed) {
     std::vector<double> running;
     double total = 0.0;
-    for (std::uint32_t id = 0; id < packed.triangles.size(); ++id) {
+    for (std::uint32_t id = 0; id < packed.planes.size(); ++id) {
         const Triangle& t = packed.triangles[id];
         const Material& material = packed.materials[t.material];
         if (!material.emits()) continue;
@@ -224,20 +232,20 @@ std::vector<SmallLeaf> leaves_of(const Bvh& bvh) {
     return leaves;
 }
 
-/// Calls add(triangle, bounds) for all triangles.
-template <class T, class Add>
-Bounds bounds_of_triangles(const std::vector<T>& triangles, Add&& add) {
+/// Calls add(i, bounds) for all triangles of a range.
+template <class Add>
+Bounds bounds_of_triangles(IndexRange triangles, Add&& add) {
     const auto add_all = [&](Bounds& bounds, IndexRange range) {
-        for (std::uint32_t i = range.begin; i < range.end; ++i) add(triangles[i], bounds);
+        for (std::uint32_t i = range.begin; i < range.end; ++i) add(triangles.begin + i, bounds);
     };
     Bounds bounds;
-    for (const Bounds& chunk : sums_of_chunks(triangles.size(), kElementChunk, usable_threads(), Bounds{}, add_all)) {
+    const std::uint32_t count = triangles.end - triangles.begin;
+    for (const Bounds& chunk : sums_of_chunks(count, kElementChunk, usable_threads(), Bounds{}, add_all)) {
         bounds.add(chunk.low);
         bounds.add(chunk.high);
     }
     return bounds;
 }
-
 /// The coordinate axis with the largest angle to a direction.
 Vec3d farthest_axis(Vec3d direction) {
     const Vec3d a = glm::abs(direction);
@@ -254,25 +262,38 @@ Vec3d safe_unit(Vec3d v) {
 }  // namespace
 
 Bounds bounds_of(const SceneDescription& scene) {
-    return bounds_of_triangles(scene.triangles, [&](const TriangleDescription& t, Bounds& bounds) {
-        for (int corner = 0; corner < 3; ++corner) bounds.add(scene.positions[t.vertex[corner]]);
+    Bounds bounds = bounds_of_triangles(IndexRange{0, direct_triangles(scene)}, [&](std::uint32_t i, Bounds& box) {
+        for (int corner = 0; corner < 3; ++corner) box.add(scene.positions[scene.triangles[i].vertex[corner]]);
     });
+    const std::vector<Bounds> boxes = mesh_boxes(scene);
+    for (const InstanceDescription& instance : scene.instances)
+        for (const glm::dvec3& corner : box_corners(boxes[instance.mesh], instance.to_world))
+            bounds.add(Vec3f{corner});
+    return bounds;
 }
 
 Bounds bounds_of(const HostScene& scene) {
-    return bounds_of_triangles(scene.triangles, [&](const Triangle& t, Bounds& bounds) {
-        for (const std::uint32_t corner : {t.v0, t.v1, t.v2}) bounds.add(scene.positions[corner]);
+    const auto direct = static_cast<std::uint32_t>(scene.planes.size());
+    Bounds bounds = bounds_of_triangles(IndexRange{0, direct}, [&](std::uint32_t i, Bounds& box) {
+        const Triangle& t = scene.triangles[i];
+        for (const std::uint32_t corner : {t.v0, t.v1, t.v2}) box.add(scene.positions[corner]);
     });
+    if (scene.instance_nodes.empty()) return bounds;
+    bounds.add(scene.instance_nodes.front().low);
+    bounds.add(scene.instance_nodes.front().high);
+    return bounds;
 }
 
 HostScene pack_scene(const SceneDescription& scene) {
     HostScene packed;
     pack_triangles(scene, packed);
     pack_normals(scene, packed);
-    Bvh bvh = build_bvh(view_of(std::as_const(packed.positions)), view_of(std::as_const(packed.triangles)));
+    const Span<const Triangle> direct{packed.triangles.data(), direct_triangles(scene)};
+    Bvh bvh = build_bvh(view_of(std::as_const(packed.positions)), direct);
     packed.bvh_leaves = leaves_of(bvh);
     packed.bvh_nodes = std::move(bvh.nodes);
     packed.bvh_triangles = leaf_triangles(bvh, packed);
+    pack_instances(scene, packed);
     pack_looks(scene, packed);
     return packed;
 }
@@ -287,6 +308,13 @@ HostScene repack_materials(const SceneDescription& scene, const HostScene& packe
     repacked.bvh_nodes = packed.bvh_nodes;
     repacked.bvh_leaves = packed.bvh_leaves;
     repacked.bvh_triangles = packed.bvh_triangles;
+    repacked.instances = packed.instances;
+    repacked.instance_primitives = packed.instance_primitives;
+    repacked.instance_nodes = packed.instance_nodes;
+    repacked.instance_order = packed.instance_order;
+    repacked.mesh_nodes = packed.mesh_nodes;
+    repacked.mesh_triangles = packed.mesh_triangles;
+    repacked.longest_edge = packed.longest_edge;
     pack_looks(scene, repacked);
     return repacked;
 }
@@ -296,7 +324,12 @@ bool same_triangles(const HostScene& a, const HostScene& b) {
     const auto same_corners = [](const Triangle& s, const Triangle& t) {
         return s.v0 == t.v0 && s.v1 == t.v1 && s.v2 == t.v2;
     };
-    return a.positions == b.positions && std::ranges::equal(a.triangles, b.triangles, same_corners);
+    const auto same_place = [](const Instance& s, const Instance& t) {
+        return s.first_primitive == t.first_primitive && s.first_triangle == t.first_triangle &&
+               std::ranges::equal(s.to_world.rows, t.to_world.rows);
+    };
+    return a.positions == b.positions && std::ranges::equal(a.triangles, b.triangles, same_corners) &&
+           std::ranges::equal(a.instances, b.instances, same_place);
 }
 
 Camera make_camera(const CameraDescription& camera, int width, int height) {

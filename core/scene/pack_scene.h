@@ -2,25 +2,13 @@
 #pragma once
 
 #include "core/kernel/scene/camera.h"
+#include "core/scene/bounds.h"
 #include "core/scene/description.h"
 #include "core/scene/scene_storage.h"
 
 namespace pl {
 
-/// Axis-aligned bounds of all triangles; low > high for an empty scene.
-struct Bounds {
-    Vec3f low{kInfinity};
-    Vec3f high{-kInfinity};
-
-    void add(Vec3f point) {
-        low = glm::min(low, point);
-        high = glm::max(high, point);
-    }
-    bool empty() const { return !(low.x <= high.x); }
-    Vec3f center() const { return 0.5f * (low + high); }
-    float diagonal() const { return empty() ? 0.0f : glm::length(high - low); }
-};
-
+/// Bounds of all triangles, empty without any. Those of an instance are within the box of its transformed mesh's box.
 Bounds bounds_of(const SceneDescription& scene);
 Bounds bounds_of(const HostScene& scene);
 

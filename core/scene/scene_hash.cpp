@@ -130,6 +130,16 @@ public:
         }
     }
 
+    void add_instances(const SceneDescription& scene) {
+        if (scene.meshes.empty()) return;
+        for (const MeshDescription& mesh : scene.meshes) hash_.add(std::uint64_t{mesh.triangle_count});
+        hash_.add(std::uint64_t{scene.instances.size()});
+        for (const InstanceDescription& instance : scene.instances) {
+            hash_.add(std::uint64_t{instance.mesh});
+            for (int column = 0; column < 4; ++column) add(hash_, instance.to_world[column]);
+        }
+    }
+
 private:
     void begin(std::string_view part, std::size_t number) {
         hash_.add(part);
@@ -182,6 +192,7 @@ std::string scene_hash(const SceneDescription& scene) {
     parts.add_textures(scene);
     parts.add_far_lights(scene);
     parts.add_punctual_lights(scene.punctual_lights);
+    parts.add_instances(scene);
     return fmt::format("{:016x}", hash.value());
 }
 

@@ -38,6 +38,13 @@ struct SceneStorage {
     Array<BvhNode> bvh_nodes;
     Array<SmallLeaf> bvh_leaves;
     Array<BvhTriangle> bvh_triangles;
+    Array<Instance> instances;
+    Array<std::uint32_t> instance_primitives;
+    Array<BvhNode> instance_nodes;
+    Array<std::uint32_t> instance_order;
+    Array<BvhNode> mesh_nodes;
+    Array<BvhTriangle> mesh_triangles;
+    double longest_edge = 0.0;  ///< of all triangles, if there are instances
     float light_power = 0.0f;
     Vec3f environment{0.0f};
     FarLights far_lights;  ///< without its arrays
@@ -74,6 +81,13 @@ struct SceneStorage {
                            .of_light = view_of(light_places),
                            .clusters = view_of(light_clusters)},
             .bvh = {.nodes = view_of(bvh_nodes), .leaves = view_of(bvh_leaves), .triangles = view_of(bvh_triangles)},
+            .instances = {.list = view_of(instances),
+                          .first_primitives = view_of(instance_primitives),
+                          .nodes = view_of(instance_nodes),
+                          .order = view_of(instance_order),
+                          .mesh_nodes = view_of(mesh_nodes),
+                          .mesh_triangles = view_of(mesh_triangles),
+                          .longest_edge = longest_edge},
             .light_power = light_power,
             .environment = environment,
             .far_lights = far,
@@ -118,6 +132,13 @@ void zip(const SceneStorage<From>& from, SceneStorage<To>& to, Fn&& fn) {
     fn(from.bvh_nodes, to.bvh_nodes);
     fn(from.bvh_leaves, to.bvh_leaves);
     fn(from.bvh_triangles, to.bvh_triangles);
+    fn(from.instances, to.instances);
+    fn(from.instance_primitives, to.instance_primitives);
+    fn(from.instance_nodes, to.instance_nodes);
+    fn(from.instance_order, to.instance_order);
+    fn(from.mesh_nodes, to.mesh_nodes);
+    fn(from.mesh_triangles, to.mesh_triangles);
+    to.longest_edge = from.longest_edge;
     to.light_power = from.light_power;
     to.environment = from.environment;
     to.far_lights = from.far_lights;

@@ -3,20 +3,26 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/scene/pack_scene.h"
+#include "core/scene/instance_boxes.h"
+#include "core/scene/instances.h"
 
 namespace pl {
 namespace {
 
-/// Areas of all triangles projected along x, y and z.
+/// Areas of all direct triangles, and of boxes around instances, projected along x, y and z.
 glm::dvec3 projected_areas(const SceneDescription& scene) {
     glm::dvec3 sum(0.0);
-    for (const TriangleDescription& t : scene.triangles) {
-        const glm::dvec3 a(scene.positions[t.vertex.x]);
-        const glm::dvec3 ab = glm::dvec3(scene.positions[t.vertex.y]) - a;
-        const glm::dvec3 ac = glm::dvec3(scene.positions[t.vertex.z]) - a;
-        sum += 0.5 * glm::abs(glm::cross(ab, ac));
+    const auto add = [&](const std::array<glm::dvec3, 3>& p) {
+        sum += 0.5 * glm::abs(glm::cross(p[1] - p[0], p[2] - p[0]));
+    };
+    for (std::uint32_t i = 0; i < direct_triangles(scene); ++i) {
+        const glm::uvec3& vertex = scene.triangles[i].vertex;
+        add({glm::dvec3(scene.positions[vertex.x]), glm::dvec3(scene.positions[vertex.y]),
+             glm::dvec3(scene.positions[vertex.z])});
     }
+    const std::vector<Bounds> boxes = mesh_boxes(scene);
+    for (const InstanceDescription& instance : scene.instances)
+        for_box_triangles(box_corners(boxes[instance.mesh], instance.to_world), add);
     return sum;
 }
 

@@ -11,6 +11,7 @@
 #include "core/base/error.h"
 #include "core/kernel/base/math.h"
 #include "core/scene/blends.h"
+#include "core/scene/instances.h"
 #include "core/scene/punctual_lights.h"
 
 namespace pl {
@@ -277,6 +278,7 @@ void validate_scene(const SceneDescription& scene) {
     check_numbers(list, "normal", scene.normals);
     check_vertex_colors(list, scene);
     check_triangles(list, scene);
+    list += complaints_about_instances(scene);
     check_materials(list, scene.materials);
     check_surfaces(list, scene.materials);
     check_textures(list, scene.textures);
@@ -301,6 +303,8 @@ void validate_material(const MaterialDescription& material, std::uint32_t index,
     std::vector<MaterialDescription> materials = scene.materials;
     materials[index] = material;
     check_blends(list, materials);
+    if (material.emission != glm::vec3(0.0f) && is_of_mesh(scene, index))
+        list += fmt::format("\n  material '{}': expected no emission, since instances show it", material.name);
     if (!list.empty()) {
         throw Error(ErrorKind::Input, fmt::format("the material is not valid:{}", list));
     }

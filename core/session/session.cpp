@@ -139,7 +139,7 @@ std::optional<PickedPoint> Session::pick(Vec2f film_point) {
         generate_ray(camera, film_point, {static_cast<float>(settings_.width), static_cast<float>(settings_.height)});
     const Hit hit = closest_solid_hit<kEveryFeature>(scene, BvhIntersector{scene}, ray);
     if (!hit.found()) return std::nullopt;
-    const auto surface = make_surface_point<FeatureSet{}>(scene, hit, -ray.direction);
+    const auto surface = make_surface_point<kPlaceFeatures>(scene, hit, -ray.direction);
     return PickedPoint{.position = surface.position,
                        .normal = surface.geometric_normal,
                        .primitive = surface.primitive,

@@ -46,15 +46,23 @@ __device__ inline SmallScene stage(const BvhView& bvh) {
 }
 
 /// For kernels whose threads trace many rays. All threads of a block must construct it together.
+template <FeatureSet F>
 class SceneIntersector {
 public:
-    __device__ explicit SceneIntersector(const SceneView& scene) : bvh_(scene.bvh), small_(stage(scene.bvh)) {}
+    __device__ explicit SceneIntersector(const SceneView& scene)
+        : bvh_(scene.bvh), small_(stage(scene.bvh)), instances_(scene) {}
 
     __device__ Hit closest_hit(const Ray& ray) const { return find(ray, false); }
     __device__ bool occluded(const Ray& ray) const { return find(ray, true).found(); }
 
 private:
     __device__ Hit find(const Ray& ray, bool any) const {
+        Hit best = find_direct(ray, any);
+        instances_.find(ray, any, best);
+        return best;
+    }
+    /// Among the triangles that are in the scene directly.
+    __device__ Hit find_direct(const Ray& ray, bool any) const {
         if (small_.leaf_count > 0) return find_hit(small_, ray, any);
         if constexpr (kPostponesLeaves)
             return find_hit(PostponingBvh{bvh_}, ray, any);
@@ -64,7 +72,8 @@ private:
 
     const BvhView& bvh_;
     SmallScene small_;
+    [[no_unique_address]] InstancesIf<F.has(Feature::Instances)> instances_;
 };
-static_assert(Intersector<SceneIntersector>);
+static_assert(Intersector<SceneIntersector<kEveryFeature>>);
 
 }  // namespace pl::cuda

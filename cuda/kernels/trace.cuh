@@ -93,7 +93,7 @@ __global__ void __launch_bounds__(trace_block<FeatureSet{kFeatureBits}, M>().thr
                 const __grid_constant__ Paths paths) {
     constexpr FeatureSet kFeatures{kFeatureBits};
     using Step = StepOfBlock<trace_block<kFeatures, M>().steps>;
-    const SceneIntersector intersector{setup.scene};
+    const SceneIntersector<kFeatures> intersector{setup.scene};
     const PathContext<M> context{setup.scene, method, setup.path};
     ThreadCounters counters;
     PathState<kFeatures, M> state;

@@ -8,7 +8,7 @@ namespace {
 
 template <std::uint32_t kFeatureBits>
 __global__ void __launch_bounds__(kThreadsPerBlock) show_view(const __grid_constant__ ViewSetup setup) {
-    const BvhIntersector intersector{setup.scene};
+    const BvhIntersectorOf<FeatureSet{kFeatureBits}> intersector{setup.scene};
     const std::uint32_t i = thread_number();
     PassCounters counters;
     if (i < setup.radiance.count) {
@@ -26,7 +26,7 @@ __global__ void __launch_bounds__(kThreadsPerBlock) show_view(const __grid_const
 template <FeatureSet F>
 struct WarpRays {
     const SceneView& scene;
-    const BvhIntersector& intersector;
+    const BvhIntersectorOf<F>& intersector;
 
     /// As SingleRays::trace_emission(); to be called by all lanes alike.
     template <class RayOf, class Add>
@@ -48,10 +48,10 @@ struct WarpRays {
 template <std::uint32_t kFeatureBits>
 __global__ void __launch_bounds__(kThreadsPerBlock) refine_film(const __grid_constant__ EmissionSetup setup) {
     constexpr FeatureSet kFeatures{kFeatureBits};
-    const BvhIntersector intersector{setup.scene};
+    const BvhIntersectorOf<kFeatures> intersector{setup.scene};
     const std::uint32_t count = setup.range.end - setup.range.first;
     const std::uint32_t number = scattered_number(thread_number(), kWarpLanes, count);
-    SingleRays<kFeatures, BvhIntersector> own_rays{setup.scene, intersector};
+    SingleRays<kFeatures, BvhIntersectorOf<kFeatures>> own_rays{setup.scene, intersector};
     PassCounters counters;
     std::uint32_t pixel = 0;
     EmissionWork work;
@@ -77,13 +77,14 @@ __global__ void __launch_bounds__(kThreadsPerBlock) refine_film(const __grid_con
 
 template <std::uint32_t kFeatureBits>
 __global__ void __launch_bounds__(kThreadsPerBlock) mark_borders(const __grid_constant__ EmissionSetup setup) {
-    const BvhIntersector intersector{setup.scene};
+    constexpr FeatureSet kFeatures{kFeatureBits};
+    const BvhIntersectorOf<kFeatures> intersector{setup.scene};
     const std::uint32_t light = thread_number();
-    SingleRays<FeatureSet{kFeatureBits}, BvhIntersector> rays{setup.scene, intersector};
+    SingleRays<kFeatures, BvhIntersectorOf<kFeatures>> rays{setup.scene, intersector};
     PassCounters counters;
     if (light < setup.scene.lights.count)
         counters.path.emission_rays =
-            mark_lamp_borders<FeatureSet{kFeatureBits}>(setup.context, setup.scene, rays, setup.film, light);
+            mark_lamp_borders<kFeatures>(setup.context, setup.scene, rays, setup.film, light);
     add_up(*setup.counters, counters);
 }
 

@@ -2,6 +2,7 @@
 #include <random>
 
 #include "app/closest_surface.h"
+#include "core/scene/instances.h"
 #include "tests/support/catch.hpp"
 
 namespace pl {
@@ -45,6 +46,31 @@ TEST_CASE("the side of the closest surface is the one that the point lies on") {
     CHECK(closest_surface(scene, {0.2f, 0.2f, -5.0f}).normal.z == -1.0f);
     CHECK(closest_surface(scene, {0.2f, 0.2f, 0.0f}).normal.z == 1.0f);
     CHECK(closest_surface(scene, {0.2f, 0.2f, 5.0f}).distance == 5.0f);
+}
+
+TEST_CASE("the closest surface may be of an instance, whose side is that of its place") {
+    std::mt19937 random(12);
+    std::uniform_real_distribution<float> coordinate(-4.0f, 4.0f);
+    SceneDescription scene = one_triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
+    scene.positions.insert(scene.positions.end(), {{0, 0, 0.2f}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}});
+    for (const glm::uvec3& vertex : {glm::uvec3(3, 4, 5), glm::uvec3(3, 5, 6)})
+        scene.triangles.push_back({.vertex = vertex});
+    scene.meshes = {{"leaf", 1, 2}};
+    for (int i = 0; i < 20; ++i) {
+        glm::mat4x3 place(1.0f + 0.2f * std::abs(coordinate(random)));
+        for (int axis = 0; axis < 3; ++axis) place[3][axis] = coordinate(random);
+        place[1][0] = 0.3f;
+        scene.instances.push_back({0, place});
+    }
+    SceneDescription copied = scene;
+    expand_instances(copied);
+    for (int i = 0; i < 200; ++i) {
+        const glm::vec3 point(coordinate(random), coordinate(random), coordinate(random));
+        const ClosestSurface found = closest_surface(scene, point);
+        const ClosestSurface expected = closest_surface(copied, point);
+        REQUIRE(found.distance == Approx(expected.distance).margin(1e-5));
+        REQUIRE(glm::distance(found.position, expected.position) < 1e-4f);
+    }
 }
 
 }  // namespace pl

@@ -6,6 +6,7 @@
 #include "core/io/image.h"
 #include "core/io/load_scene.h"
 #include "tests/support/catch.hpp"
+#include "tests/support/files/forest.h"
 #include "tests/support/files/gltf_maker.h"
 #include "tests/support/program/run_program.h"
 
@@ -166,6 +167,15 @@ TEST_CASE("convert: wrong names and unwritable places leave nothing behind") {
     CHECK(run_program({"convert", folder / "none.obj", "-o", folder / "a.json"}).code == 3);
     CHECK(run_program({"convert", "cornell", "-o", folder / "none/a.json"}).code == 1);
     CHECK(folder.names().empty());
+}
+
+TEST_CASE("convert: a scene of more copies than a scene file may have is refused, and nothing is written") {
+    const TempDir folder;
+    write_all(folder / "a.glb", forest().glb());
+    const ProgramResult result = run_program({"convert", folder / "a.glb", "-o", folder / "s.json"});
+    CHECK(result.code == 3);
+    CHECK_THAT(result.err, contains("a.glb: scene files hold no instances") && contains("got 80000001"));
+    CHECK(folder.names() == std::vector<std::string>{"a.glb"});
 }
 
 }  // namespace pl::test

@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/support/catch.hpp"
+#include "tests/support/files/forest.h"
 #include "tests/support/program/run_program.h"
 
 namespace pl::test {
@@ -61,6 +62,24 @@ TEST_CASE("info describes metals and glass by what they are") {
     CHECK(gold["surface"] == "conductor");
     CHECK(gold["specular"] == ordered_json::array({1.0, 0.75, 0.25}));
     CHECK(gold["roughness"] == 0.5);
+}
+
+TEST_CASE("info tells the triangles of meshes that are kept once, and those of all instances") {
+    const TempDir folder;
+    write_all(folder / "a.glb", forest().glb());
+    CHECK_THAT(run_program({"info", folder / "a.glb", "-q"}).out,
+               contains("triangles  1 directly, 8000 of 1 mesh shown by 10000 instances: 80000001 in all\n"));
+    const ordered_json json =
+        ordered_json::parse(lines_of(run_program({"info", folder / "a.glb", "--json"}).out).back());
+    CHECK(json["triangles"] == 8001);
+    CHECK(json["meshes"] == 1);
+    CHECK(json["instances"] == 10000);
+    CHECK(json["shown_triangles"] == 80000001);
+    const ProgramResult cornell = run_program({"info", "cornell", "--json"});
+    const ordered_json box = ordered_json::parse(lines_of(cornell.out).back());
+    CHECK_FALSE(box.contains("instances"));
+    CHECK_FALSE(box.contains("shown_triangles"));
+    CHECK_THAT(run_program({"info", "cornell"}).out, contains("triangles  32\n"));
 }
 
 TEST_CASE("devices lists the back ends, and why one is missing") {

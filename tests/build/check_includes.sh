@@ -36,7 +36,8 @@ core/kernel/shading/light_tree.h:      core/kernel/base
 core/kernel/shading/material.h:        core/kernel/base
 core/kernel/shading/surface_lobes.h:   core/kernel/base
 core/kernel/scene:      $kernel_data
-core/kernel/geometry/intersector.h: $kernel_data core/kernel/scene
+core/kernel/geometry/intersector.h: $kernel_data core/kernel/scene core/kernel/geometry/instance_traversal.h
+core/kernel/geometry/instance_traversal.h: $kernel_data core/kernel/scene
 core/kernel/shading:    $kernel_data core/kernel/scene
 core/kernel/film:       core/kernel/base
 core/kernel/guiding:    $kernel_scene
@@ -97,9 +98,9 @@ stb_*:             core/io
 
 kernel_headers=' cstdint cmath concepts type_traits atomic limits bit cstring string_view utility '
 
-# Where kernels may use double: sums over samples, and the edge functions that come out as zero in float, which the
-# watertight triangle test has to decide exactly.
-double_allowed='core/kernel/film core/kernel/geometry/triangle.h'
+# Where kernels may use double: sums over samples, the edge functions that come out as zero in float, which the watertight
+# triangle test has to decide exactly, and the planes of triangles, which kernels make for those of instances alone.
+double_allowed='core/kernel/film core/kernel/geometry/triangle.h core/kernel/scene/triangle_plane.h core/kernel/scene/instances.h'
 
 # within PATH FOLDER...: is PATH one of the folders or files, or below one?
 within() {

@@ -7,6 +7,8 @@ Renders small pictures under valgrind's callgrind, which counts instructions per
 effect must not execute a single one of an effect's file; a scene that needs the effect must, or this test would see nothing.
 Exit code 77: there is no valgrind.
 """
+import json
+import struct
 import sys
 import tempfile
 from pathlib import Path
@@ -32,14 +34,44 @@ EFFECTS = {
     "shading/absorption.h": str(Path(__file__).with_name("ink.json")),
     "shading/blends.h": str(Path(__file__).with_name("rust.json")),
     "shading/anisotropy.h": str(Path(__file__).with_name("brush.json")),
+    "geometry/instance_traversal.h": "instances",
 }
 PLAIN = (["cornell", "--nee", "off"], ["cornell", "--nee", "on"], ["cornell", "--method", "reinforcement", "--nee", "on"],
          ["cornell", "--method", "precomputed", "--bins", "16"], ["door", "--nee", "on"], ["sky", "--nee", "on"])
 
 
+def write_instances(folder):
+    """A glTF file of a mesh of ten thousand triangles that is shown 250 times: too often for copies."""
+    columns, rows = 100, 50
+    positions = [(0.01 * x, 0.1 * ((x + y) % 2), -0.02 * y) for y in range(rows + 1) for x in range(columns + 1)]
+    triangles = []
+    for y in range(rows):
+        for x in range(columns):
+            a = y * (columns + 1) + x
+            triangles += [a, a + 1, a + columns + 2, a, a + columns + 2, a + columns + 1]
+    data = b"".join(struct.pack("<3f", *p) for p in positions)
+    indices = len(data)
+    data += struct.pack(f"<{len(triangles)}I", *triangles)
+    (folder / "mesh.bin").write_bytes(data)
+    nodes = [{"mesh": 0, "translation": [i % 16, 0, i // 16]} for i in range(250)]
+    gltf = {"asset": {"version": "2.0"}, "scenes": [{"nodes": list(range(250))}], "nodes": nodes,
+            "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
+            "buffers": [{"uri": "mesh.bin", "byteLength": len(data)}],
+            "bufferViews": [{"buffer": 0, "byteLength": indices},
+                            {"buffer": 0, "byteOffset": indices, "byteLength": len(data) - indices}],
+            "accessors": [{"bufferView": 0, "componentType": 5126, "count": len(positions), "type": "VEC3",
+                           "min": [0, 0, -0.02 * rows], "max": [0.01 * columns, 0.1, 0]},
+                          {"bufferView": 1, "componentType": 5125, "count": len(triangles), "type": "SCALAR"}]}
+    path = folder / "instances.gltf"
+    path.write_text(json.dumps(gltf))
+    return str(path)
+
+
 def instructions_by_file(program, arguments):
     """Instructions executed, by file of source, where the program knows its lines."""
     with tempfile.TemporaryDirectory() as folder:
+        if arguments[0] == "instances":
+            arguments = [write_instances(Path(folder)), *arguments[1:]]
         command = [program, "render", *arguments, "--spp", "2", "--size", "16x16", "--volumes", "50", "--threads", "1",
                    "--output", str(Path(folder) / "picture.pfm")]
         return sum_by(count_instructions(command), 0)
@@ -51,7 +83,7 @@ def spent_in(counts, file):
 
 # Left out by the quick check: many runs under callgrind take long.
 QUICK_PLAIN = PLAIN[2:3]
-QUICK_SCENES = ("coats", *(str(Path(__file__).with_name(f"{name}.json")) for name in ("ink", "rust", "brush")))
+QUICK_SCENES = ("coats", "instances", *(str(Path(__file__).with_name(f"{name}.json")) for name in ("ink", "rust", "brush")))
 
 
 def main():

@@ -15,6 +15,7 @@
 #include "tests/support/files/input_error.h"
 #include "tests/support/scenes/closed_scenes.h"
 #include "tests/support/scenes/image_scenes.h"
+#include "tests/support/scenes/instanced_scenes.h"
 #include "tests/support/scenes/shipped_scenes.h"
 #include "tests/support/session/same_bits.h"
 #include "tests/support/session/small_settings.h"
@@ -60,8 +61,8 @@ State render(Session session, std::uint32_t passes = 3) {
 }  // namespace
 
 TEST_CASE("Every method gives the bits of the CPU back end") {
-    for (const SceneDescription& scene :
-         {shipped_scene("cornell"), shipped_scene("door"), shipped_scene("furnace"), every_effect()}) {
+    for (const SceneDescription& scene : {shipped_scene("cornell"), shipped_scene("door"), shipped_scene("furnace"),
+                                          every_effect(), room_of_instances(materials_of_meshes())}) {
         for (const Estimator estimator : kEstimators) {
             INFO(scene.name << ", " << estimator);
             const RenderSettings settings = small_settings(scene, estimator);
@@ -131,7 +132,8 @@ TEST_CASE("A warm-up and the film after it have the bits of the CPU back end") {
 
 TEST_CASE("Every view gives the bits of the CPU back end") {
     shim::reset();
-    for (const SceneDescription& scene : {shipped_scene("cornell"), every_effect()})
+    for (const SceneDescription& scene :
+         {shipped_scene("cornell"), every_effect(), room_of_instances(materials_of_meshes())})
         for (const ViewInfo& view : all_views())
             for (const MethodInfo& method : all_methods()) {
                 INFO(view.name << ", " << method.name);

@@ -83,9 +83,9 @@ void read_or_refuse(Read&& read) {
 }
 
 /// A scene that was accepted is one that can be packed into finite numbers.
-void load_and_pack(const fs::path& path) {
-    const SceneDescription scene = load_scene(path.string(), path.parent_path());
-    if (scene.triangles.size() > 20000) return;
+void load_and_pack(const fs::path& path, const LoadSettings& asked = {}) {
+    const SceneDescription scene = load_scene(path.string(), path.parent_path(), asked);
+    if (scene.triangles.size() > 20000 || scene.instances.size() > 20000) return;
     const HostScene packed = pack_scene(scene);
     for (const auto& plane : packed.planes)
         for (int axis = 0; axis < 3; ++axis)
@@ -135,17 +135,19 @@ void run_json(std::string_view bytes) {
     read_or_refuse([&] { load_and_pack(path); });
 }
 
-/// A .gltf or .glb, which are told apart by their bytes.
+/// A .gltf or .glb, which are told apart by their bytes, with copies and with instances.
 void run_gltf(std::string_view bytes) {
     folder().write("b.bin", std::string(64, '\x3f'));
     const fs::path path = folder().write("s.glb", bytes);
     read_or_refuse([&] { load_and_pack(path); });
+    read_or_refuse([&] { load_and_pack(path, {.most_copied_triangles = 0}); });
 }
 
 void run_mitsuba(std::string_view bytes) {
     folder().write("m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     const fs::path path = folder().write("s.xml", bytes);
     read_or_refuse([&] { load_and_pack(path); });
+    read_or_refuse([&] { load_and_pack(path, {.most_copied_triangles = 0}); });
 }
 
 void run_serialized(std::string_view bytes) {

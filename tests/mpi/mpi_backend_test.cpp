@@ -9,6 +9,7 @@
 #include "tests/support/files/input_error.h"
 #include "tests/support/files/temporary_folder.h"
 #include "tests/support/scenes/image_scenes.h"
+#include "tests/support/scenes/instanced_scenes.h"
 #include "tests/support/scenes/shapes.h"
 #include "tests/support/scenes/shipped_scenes.h"
 #include "tests/support/session/same_bits.h"
@@ -73,12 +74,12 @@ TEST_CASE("Any number of ranks and threads gives the bits of one rank, over more
     check_ranks({{2, 2}, {3, 1}, {5, 1}, {5, 2}, {8, 1}}, 33);
 }
 
-TEST_CASE("A scene that needs every effect has the bits of one rank") {
-    const SceneDescription scene = every_effect();
-    for (const Estimator estimator : {kEstimators[1], kEstimators[5]}) {
-        INFO(estimator);
-        check_six_passes(3, scene, small_settings(scene, estimator));
-    }
+TEST_CASE("Scenes that need every effect, and instances, have the bits of one rank") {
+    for (const SceneDescription& scene : {every_effect(), room_of_instances(materials_of_meshes())})
+        for (const Estimator estimator : {kEstimators[1], kEstimators[5]}) {
+            INFO(scene.name << ", " << estimator);
+            check_six_passes(3, scene, small_settings(scene, estimator));
+        }
 }
 
 // Through a lens the borders of lamps are found by comparing pixels with their neighbors, most of which other ranks have here.

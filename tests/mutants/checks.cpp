@@ -39,6 +39,7 @@ constexpr Check kChecks[] = {
     {"edges", check_edges},
     {"walk", check_walk},
     {"leaning", check_leaning},
+    {"instances", check_instances},
 };
 
 }  // namespace

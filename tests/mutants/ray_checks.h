@@ -1,12 +1,15 @@
 // Failures of rays: passing between two triangles that share an edge, leaving a closed room, going through a wall
-// whose shading normals lean.
+// whose shading normals lean, another hit of an instance than of a copy.
 #pragma once
 
 #include <sstream>
 
 #include "tests/mutants/trace_many.h"
+#include "tests/support/rays/brute_force.h"
+#include "tests/support/rays/hard_rays.h"
 #include "tests/support/rays/walk.h"
 #include "tests/support/scenes/closed_scenes.h"
+#include "tests/support/scenes/instanced_meshes.h"
 #include "tests/support/statistics/rules.h"
 
 namespace pl::test {
@@ -54,6 +57,27 @@ inline Decision check_walk() {
     const WalkResult result = walk(scene.view(), BvhIntersector{scene.view()}, start.positions.front(), kSegments,
                                    WalkStyle::Adversarial, 1);
     return never(result.escapes + result.leaks, kSegments);
+}
+
+/// Seed 23; 1e5 rays at hard points of instances far from the origin, and of copies.
+inline Decision check_instances() {
+    constexpr std::uint64_t kRays = 100000;
+    SceneDescription description;
+    description.materials.push_back(gray());
+    add_spiky_sphere(description, 12, 12, 0.7f, 1.0f, 5);
+    make_mesh(description, 0);
+    Uniforms random(23);
+    add_instances(description, random, 12, 3000.0f, 200.0f);
+    const HostScene instanced = pack_scene(description);
+    const HostScene copied = pack_scene(with_copies(description));
+    const BvhIntersector by_instances{instanced.view()};
+    const BvhIntersector by_copies{copied.view()};
+    std::uint64_t differences = 0;
+    for (std::uint64_t i = 0; i < kRays; ++i) {
+        const Ray ray = hard_ray(copied.view(), random);
+        differences += same_bits(by_copies.closest_hit(ray), by_instances.closest_hit(ray)) ? 0 : 1;
+    }
+    return never(differences, kRays);
 }
 
 /// Seed 1; 2e4 paths in a closed room whose shading normals lean by 80 degrees, under a bright sky.

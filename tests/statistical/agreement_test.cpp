@@ -1,6 +1,7 @@
 // All methods, with and without light samples, make the same picture: rule S2 on scenes without a closed form.
 #include "tests/support/catch.hpp"
 #include "tests/support/scenes/cornell_variants.h"
+#include "tests/support/scenes/instanced_scenes.h"
 #include "tests/support/session/sessions.h"
 #include "tests/support/session/variants.h"
 
@@ -161,6 +162,7 @@ TEST_CASE("All methods agree on mirror and glass") { check_agreement("spheres", 
 TEST_CASE("All methods agree on glass that absorbs") { check_agreement(cornell_with_stained_glass(), 0.2); }
 TEST_CASE("All methods agree on thin panes") { check_agreement(cornell_with_panes(), 0.2); }
 TEST_CASE("All methods agree on anisotropic metals") { check_agreement(cornell_with_brushed_metals(), 0.2); }
+TEST_CASE("All methods agree on instances") { check_agreement(room_of_instances(materials_of_meshes()), 0.2, 1.3); }
 TEST_CASE("All methods agree on blends") { check_agreement(cornell_with_blends(), 0.2); }
 TEST_CASE("All methods agree on coats and rough metals") { check_agreement("coats", 0.2); }
 TEST_CASE("All methods agree on the row before the lens") { check_agreement("lens", 0.16); }
@@ -199,6 +201,9 @@ TEST_CASE("All methods agree on mirror and glass within 3 %", "[merge]") { check
 TEST_CASE("All methods agree on coats and rough metals within 3 %", "[merge]") { check_agreement("coats", 0.03); }
 TEST_CASE("All methods agree on anisotropic metals within 5 %", "[merge]") {
     check_agreement(cornell_with_brushed_metals(), 0.05);
+}
+TEST_CASE("All methods agree on instances within 5 %", "[merge]") {
+    check_agreement(room_of_instances(materials_of_meshes()), 0.05, 1.3);
 }
 TEST_CASE("All methods agree on blends within 5 %", "[merge]") { check_agreement(cornell_with_blends(), 0.05); }
 TEST_CASE("All targets, rates and rules of roulette agree on blends", "[merge]") {

@@ -35,7 +35,7 @@ std::optional<PickedPoint> surface_under(const PublishedFrame& frame, const Hove
     const SceneView scene = frame.scene->view();
     const Hit hit = BvhIntersector{scene}.closest_hit(ray);
     if (!hit.found()) return std::nullopt;
-    const SurfacePoint surface = make_surface_point<FeatureSet{}>(scene, hit, -ray.direction);
+    const SurfacePoint surface = make_surface_point<kPlaceFeatures>(scene, hit, -ray.direction);
     PickedPoint point;
     point.position = surface.position;
     point.normal = surface.geometric_normal;

@@ -15,9 +15,10 @@ namespace {
 
 /// Extensions that are read, change no picture, or are noted where they are used.
 bool is_known(const std::string& extension) {
-    constexpr std::array<std::string_view, 9> kKnown = {
-        "KHR_lights_punctual", "KHR_mesh_quantization", "KHR_texture_transform", "KHR_texture_basisu",
-        "EXT_texture_webp",    "EXT_texture_avif",      "MSFT_texture_dds",      "KHR_xmp",
+    constexpr std::array<std::string_view, 10> kKnown = {
+        "EXT_mesh_gpu_instancing", "KHR_lights_punctual", "KHR_mesh_quantization",
+        "KHR_texture_transform",   "KHR_texture_basisu",  "EXT_texture_webp",
+        "EXT_texture_avif",        "MSFT_texture_dds",    "KHR_xmp",
         "KHR_xmp_json_ld"};
     return extension.starts_with("KHR_materials_") ||
            std::find(kKnown.begin(), kKnown.end(), extension) != kKnown.end();
@@ -44,13 +45,14 @@ void note_the_rest(GltfFile& file) {
 
 }  // namespace
 
-SceneDescription load_gltf(const std::filesystem::path& path, MeshGroups* groups) {
+SceneDescription load_gltf(const std::filesystem::path& path, MeshGroups* groups,
+                           std::uint64_t most_copied_triangles) {
     GltfFile file(path);
     SceneDescription scene;
     scene.source = path;
     const GltfNodes nodes = read_nodes(file);
     const std::vector<GltfSurface> surfaces = read_surfaces(file, scene);
-    add_gltf_triangles(file, nodes, surfaces, scene, groups);
+    add_gltf_triangles(file, nodes, surfaces, scene, groups, most_copied_triangles);
     if (scene.triangles.empty()) fail_empty(file);
     add_gltf_cameras(file, nodes, scene);
     add_gltf_lights(file, nodes, scene);

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include <fmt/format.h>
-#include <glm/gtc/quaternion.hpp>
 
 namespace pl {
 namespace {
@@ -14,21 +13,22 @@ std::string node_at(std::uint32_t node) { return fmt::format("/nodes/{}", node);
 
 /// Place relative to the parent. [glTF 2.0, section 3.5.3]
 glm::dmat4 local_transform(const JsonDocument& json, const std::string& at) {
-    glm::dmat4 matrix(1.0);
     if (const auto given = json.numbers(at + "/matrix", 16)) {
+        glm::dmat4 matrix;
         for (int i = 0; i < 16; ++i) matrix[i / 4][i % 4] = (*given)[static_cast<std::size_t>(i)];
         return matrix;
     }
-    if (const auto turn = json.numbers(at + "/rotation", 4)) {
-        const glm::dquat quaternion((*turn)[3], (*turn)[0], (*turn)[1], (*turn)[2]);
-        if (!(glm::length(quaternion) > 0.0))
+    const auto vector = [&](const char* member, const glm::dvec3& standard) {
+        const auto given = json.numbers(at + member, 3);
+        return given ? glm::dvec3((*given)[0], (*given)[1], (*given)[2]) : standard;
+    };
+    glm::dquat turn(1.0, 0.0, 0.0, 0.0);
+    if (const auto given = json.numbers(at + "/rotation", 4)) {
+        turn = glm::dquat((*given)[3], (*given)[0], (*given)[1], (*given)[2]);
+        if (!(glm::length(turn) > 0.0))
             json.fail(at + "/rotation", "expected a unit quaternion, got one of no length");
-        matrix = glm::mat4_cast(glm::normalize(quaternion));
     }
-    if (const auto scale = json.numbers(at + "/scale", 3))
-        for (int i = 0; i < 3; ++i) matrix[i] *= (*scale)[static_cast<std::size_t>(i)];
-    if (const auto move = json.numbers(at + "/translation", 3)) matrix[3] = {(*move)[0], (*move)[1], (*move)[2], 1.0};
-    return matrix;
+    return transform_of(vector("/translation", glm::dvec3(0.0)), turn, vector("/scale", glm::dvec3(1.0)));
 }
 
 /// Reads the forest of nodes.
@@ -131,6 +131,13 @@ private:
 };
 
 }  // namespace
+
+glm::dmat4 transform_of(const glm::dvec3& move, const glm::dquat& turn, const glm::dvec3& scale) {
+    glm::dmat4 matrix = glm::mat4_cast(glm::normalize(turn));
+    for (int i = 0; i < 3; ++i) matrix[i] *= scale[i];
+    matrix[3] = glm::dvec4(move, 1.0);
+    return matrix;
+}
 
 GltfNodes read_nodes(const GltfFile& file) { return NodeReader(file).run(); }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <glm/glm.hpp>
+#include <glm/gtc/quaternion.hpp>
 
 #include "core/io/gltf/gltf_file.h"
 
@@ -23,6 +24,9 @@ struct GltfNodes {
     std::vector<GltfNode> all;
     std::vector<std::uint32_t> shown;  ///< those of the scene that the file shows, parents before their children
 };
+
+/// Scales, then turns, then moves. The quaternion has a length above 0.
+glm::dmat4 transform_of(const glm::dvec3& move, const glm::dquat& turn, const glm::dvec3& scale);
 
 /// Throws Error(Input) for nodes with two parents or in a circle.
 GltfNodes read_nodes(const GltfFile& file);

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/io/gltf/accessors.h"
+#include "core/io/kept_meshes.h"
 
 namespace pl {
 namespace {
@@ -61,9 +62,9 @@ GltfPrimitive GltfMeshes::read(const std::string& at) {
 
 void GltfMeshes::count(const std::string& at, std::uint64_t elements) {
     elements_ += elements;
-    if (elements_ > kMostGltfVertices) {
+    if (elements_ > kMostStoredVertices) {
         file_.fail(at, fmt::format("expected at most {} vertices and corners in the file, got {} and more",
-                                   kMostGltfVertices, elements_));
+                                   kMostStoredVertices, elements_));
     }
 }
 

@@ -14,10 +14,6 @@
 
 namespace pl {
 
-/// Most vertices of all primitives of a file, and most triangles.
-inline constexpr std::uint64_t kMostGltfVertices = std::uint64_t{1} << 27;
-inline constexpr std::uint64_t kMostGltfTriangles = std::uint64_t{1} << 26;
-
 struct GltfPrimitive {
     std::string at;  ///< JSON pointer
     std::uint32_t surface = 0;

@@ -7,11 +7,13 @@
 
 namespace pl {
 
-/// Adds a copy of each mesh for each shown node that names it, in the order of the nodes; meshes with skins in the pose of
-/// their joints. Mirrored copies keep their front. Triangles too small to have a normal are removed, normals of no length
-/// ignored, both with a note. `groups`, if it is not null, has a group for each node with a mesh.
-/// Throws Error(Input): broken meshes, coordinates beyond kLargestCoordinate, more than kMostGltfTriangles.
+/// Adds each mesh for each shown node that names it, in the order of the nodes: as a copy, or as an instance behind all copies if
+/// KeptMeshes decides so; meshes with skins as copies in the pose of their joints. Mirrored copies keep their front. Triangles too
+/// small to have a normal are removed, normals of no length ignored, both with a note. `groups`, if it is not null, has a group for
+/// each node with a mesh; everything is copied then.
+/// Throws Error(Input): broken meshes and places, coordinates beyond kLargestCoordinate, more than kMostStoredTriangles,
+/// kMostShownTriangles or kMostInstances.
 void add_gltf_triangles(GltfFile& file, const GltfNodes& nodes, const std::vector<GltfSurface>& surfaces,
-                        SceneDescription& scene, MeshGroups* groups);
+                        SceneDescription& scene, MeshGroups* groups, std::uint64_t most_copied_triangles);
 
 }  // namespace pl

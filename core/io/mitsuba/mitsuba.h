@@ -3,14 +3,16 @@
 
 #include <filesystem>
 
+#include "core/io/load_settings.h"
 #include "core/scene/description.h"
 
 namespace pl {
 
-/// Reads shapes, instances as copies of theirs, surfaces, textures, emitters, camera and size of the picture; the caller sets the name. `up` is that of the camera.
-/// The first sensor becomes the first of SceneDescription::cameras. Content without a counterpart is told once for each kind; integrators and
-/// samplers say nothing about the scene and are passed over.
+/// Reads shapes, groups of them by their instances (see MitsubaInstances), surfaces, textures, emitters, camera and size of the picture;
+/// the caller sets the name. `up` is that of the camera. The first sensor becomes the first of SceneDescription::cameras. Content
+/// without a counterpart is told once for each kind; integrators and samplers say nothing about the scene and are passed over.
 /// Throws Error(Input) with file and line, see MitsubaFile.
-SceneDescription load_mitsuba(const std::filesystem::path& path);
+SceneDescription load_mitsuba(const std::filesystem::path& path,
+                              std::uint64_t most_copied_triangles = kMostCopiedTriangles);
 
 }  // namespace pl

@@ -8,6 +8,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "core/base/parallel_chunks.h"
+#include "core/io/append_triangles.h"
 #include "core/io/line_reader.h"
 #include "core/io/mitsuba/ply.h"
 #include "core/io/mitsuba/serialized.h"
@@ -201,29 +202,6 @@ void turn_over(ObjMesh& mesh) {
     }
 }
 
-/// Moves the triangles of `added` behind those of the scene.
-void append(SceneDescription added, SceneDescription& scene) {
-    const auto shift = [](glm::uvec3 indices, std::size_t by) {
-        return indices.x == TriangleDescription::kNoNormal ? indices : indices + static_cast<std::uint32_t>(by);
-    };
-    for (TriangleDescription& triangle : added.triangles) {
-        triangle.vertex = shift(triangle.vertex, scene.positions.size());
-        triangle.normal = shift(triangle.normal, scene.normals.size());
-        triangle.uv = shift(triangle.uv, scene.uvs.size());
-    }
-    const auto join = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
-    if (!scene.vertex_colors.empty() || !added.vertex_colors.empty()) {
-        scene.vertex_colors.resize(scene.positions.size(), glm::vec3(1.0f));
-        added.vertex_colors.resize(added.positions.size(), glm::vec3(1.0f));
-        join(scene.vertex_colors, added.vertex_colors);
-    }
-    join(scene.positions, added.positions);
-    join(scene.normals, added.normals);
-    join(scene.uvs, added.uvs);
-    join(scene.triangles, added.triangles);
-    join(scene.warnings, added.warnings);
-}
-
 }  // namespace
 
 void add_mitsuba_shape(const MitsubaObject& shape, const ShapeMaterial& material, SceneDescription& scene) {
@@ -264,16 +242,11 @@ void add_mitsuba_shape(const MitsubaObject& shape, const ShapeMaterial& material
                                   .fallback = material.index};
     add_obj_triangles(added, std::move(mesh), materials, nullptr, usable_threads());
     if (material.shows_vertex_colors) added.vertex_colors = shown_colors(shape, std::move(vertex_colors));
-    append(std::move(added), scene);
+    append_triangles(std::move(added), scene);
 }
 
-void add_mitsuba_instance(const MitsubaObject& instance, const SceneDescription& group, SceneDescription& scene) {
-    if (scene.triangles.size() + group.triangles.size() > kMostMitsubaTriangles ||
-        scene.positions.size() + group.positions.size() > kMostMitsubaVertices) {
-        instance.fail(fmt::format("expected at most {} triangles in the scene, with all copies of shapes, got more",
-                                  kMostMitsubaTriangles));
-    }
-    const glm::dmat4 to_world = instance.transform("to_world");
+SceneDescription copy_of_group(const MitsubaObject& instance, const SceneDescription& group,
+                               const glm::dmat4& to_world) {
     SceneDescription copy;
     copy.positions = group.positions;
     copy.vertex_colors = group.vertex_colors;
@@ -288,7 +261,7 @@ void add_mitsuba_instance(const MitsubaObject& instance, const SceneDescription&
             std::swap(triangle.uv.y, triangle.uv.z);
         }
     }
-    append(std::move(copy), scene);
+    return copy;
 }
 
 }  // namespace pl

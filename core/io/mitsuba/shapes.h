@@ -17,12 +17,9 @@ struct ShapeMaterial {
 /// Throws Error(Input).
 void add_mitsuba_shape(const MitsubaObject& shape, const ShapeMaterial& material, SceneDescription& scene);
 
-/// Most triangles and vertices of a scene with all its instances.
-inline constexpr std::size_t kMostMitsubaTriangles = std::size_t{1} << 26;
-inline constexpr std::size_t kMostMitsubaVertices = std::size_t{1} << 27;
-
-/// Adds a copy of the triangles of a group of shapes in the place of an `instance` element. Throws Error(Input) if the scene would
-/// have more than kMostMitsubaTriangles or coordinates beyond kLargestCoordinate.
-void add_mitsuba_instance(const MitsubaObject& instance, const SceneDescription& group, SceneDescription& scene);
+/// The triangles of a group of shapes in a place, without the group's warnings; mirrored ones keep their front.
+/// Throws Error(Input) at the `instance` element for coordinates beyond kLargestCoordinate.
+SceneDescription copy_of_group(const MitsubaObject& instance, const SceneDescription& group,
+                               const glm::dmat4& to_world);
 
 }  // namespace pl

@@ -8,6 +8,7 @@
 #include "core/io/height_map.h"
 #include "core/io/texture_file.h"
 #include "core/kernel/base/math.h"
+#include "core/scene/instances.h"
 
 namespace pl {
 namespace {
@@ -68,16 +69,46 @@ struct MeanDensity {
     bool varies = false;
 };
 
+/// Sums of the powers 0, 1 and 2 of the scales by which the places of a triangle enlarge it.
+struct PlaceScales {
+    double count = 0.0, scale = 0.0, square = 0.0;
+
+    void add(double by) {
+        count += 1.0;
+        scale += by;
+        square += by * by;
+    }
+};
+
+/// Of the direct triangles, and of those of each mesh behind them. Scales that are not uniform count by their mean.
+std::vector<PlaceScales> place_scales(const SceneDescription& scene) {
+    std::vector<PlaceScales> scales(1 + scene.meshes.size());
+    scales.front().add(1.0);
+    for (const InstanceDescription& instance : scene.instances)
+        scales[1 + instance.mesh].add(std::cbrt(glm::determinant(glm::dmat3(glm::mat3(instance.to_world)))));
+    return scales;
+}
+
 MeanDensity mean_density(const SceneDescription& scene, std::uint32_t material) {
     UvDensity sums;
     double squares = 0.0;
-    for (const TriangleDescription& t : scene.triangles) {
-        if (t.material != material || !t.has_uvs()) continue;
-        const UvDensity density = density_of(scene, t);
-        sums.u += density.area * density.u;
-        sums.v += density.area * density.v;
-        sums.area += density.area;
-        squares += density.area * (density.u * density.u + density.v * density.v);
+    const auto add = [&](std::uint32_t first, std::uint32_t end, const PlaceScales& places) {
+        for (std::uint32_t i = first; i < end; ++i) {
+            const TriangleDescription& t = scene.triangles[i];
+            if (t.material != material || !t.has_uvs()) continue;
+            // An enlarged triangle has an area by the square of the scale, and a density by its inverse.
+            const UvDensity density = density_of(scene, t);
+            sums.u += density.area * density.u * places.scale;
+            sums.v += density.area * density.v * places.scale;
+            sums.area += density.area * places.square;
+            squares += density.area * (density.u * density.u + density.v * density.v) * places.count;
+        }
+    };
+    const std::vector<PlaceScales> scales = place_scales(scene);
+    add(0, direct_triangles(scene), scales.front());
+    for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
+        const MeshDescription& mesh = scene.meshes[i];
+        add(mesh.first_triangle, mesh.first_triangle + mesh.triangle_count, scales[1 + i]);
     }
     if (!(sums.area > 0.0)) return {};
     const UvDensity mean{sums.u / sums.area, sums.v / sums.area, sums.area};

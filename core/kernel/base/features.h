@@ -26,6 +26,7 @@ enum class Feature : std::uint32_t {
     ThinPanes = 1u << 14,           ///< thin sheets of clear glass
     Blends = 1u << 15,              ///< surfaces of two materials, chosen at random by their shares
     Anisotropy = 1u << 16,          ///< facets of rough metals that are wider in one direction than in the other
+    Instances = 1u << 17,           ///< meshes that are stored once and shown many times
 };
 
 inline constexpr Feature kAllFeatures[] = {Feature::SmoothNormals, Feature::Environment, Feature::NextEventEstimation,
@@ -33,7 +34,7 @@ inline constexpr Feature kAllFeatures[] = {Feature::SmoothNormals, Feature::Envi
                                            Feature::Textures,      Feature::CutOuts,     Feature::EnvironmentMap,
                                            Feature::ThinLens,      Feature::ManyLights,  Feature::NormalMaps,
                                            Feature::DeltaLights,   Feature::Absorption,  Feature::ThinPanes,
-                                           Feature::Blends,        Feature::Anisotropy};
+                                           Feature::Blends,        Feature::Anisotropy,  Feature::Instances};
 
 /// A set of features; usable as a template argument.
 struct FeatureSet {
@@ -47,6 +48,7 @@ struct FeatureSet {
         return {bits & ~static_cast<std::uint32_t>(feature)};
     }
     PL_HD constexpr FeatureSet with(FeatureSet other) const { return {bits | other.bits}; }
+    PL_HD constexpr FeatureSet common(FeatureSet other) const { return {bits & other.bits}; }
     PL_HD friend constexpr bool operator==(FeatureSet, FeatureSet) = default;
 };
 
@@ -57,6 +59,9 @@ PL_HD constexpr FeatureSet features(Features... list) {
 
 /// Effects of surfaces that have other lobes than Lambert's.
 inline constexpr FeatureSet kLobeFeatures = features(Feature::Specular, Feature::Rough, Feature::Plastic);
+
+/// Effects that decide the place of a surface point.
+inline constexpr FeatureSet kPlaceFeatures = features(Feature::Instances);
 
 /// Effects by which shading normals differ from geometric ones.
 inline constexpr FeatureSet kNormalFeatures = features(Feature::SmoothNormals, Feature::NormalMaps);

@@ -1,5 +1,5 @@
-// Differences between the C++ compiler and nvcc: PL_HD, PL_INLINE, PL_HD_INLINED, PL_ASSERT, arithmetic for bounds, votes of a warp.
-// Besides atomics.h the only file of core/kernel that tests compiler macros.
+// Differences between the C++ compiler and nvcc: PL_HD, PL_INLINE, PL_HD_INLINED, PL_HD_APART, PL_ASSERT, arithmetic for
+// bounds, votes of a warp. Besides atomics.h the only file of core/kernel that tests compiler macros.
 #pragma once
 
 #include <bit>
@@ -10,15 +10,18 @@
 #endif
 
 // PL_INLINE: inlined by both. PL_HD_INLINED: by nvcc alone, for functions that are called once: apart, they would take parameters by
-// addresses of unknown kind of memory, and the path's state would go to the stack.
+// addresses of unknown kind of memory, and the path's state would go to the stack. PL_HD_APART: by neither, for rare and long work,
+// which would take registers from all other.
 #if defined(__CUDACC__)
 #define PL_HD __host__ __device__
 #define PL_INLINE __forceinline__ __host__ __device__
 #define PL_HD_INLINED __forceinline__ __host__ __device__
+#define PL_HD_APART inline __noinline__ __host__ __device__
 #else
 #define PL_HD
 #define PL_INLINE inline __attribute__((always_inline))
 #define PL_HD_INLINED inline
+#define PL_HD_APART inline __attribute__((noinline))
 #endif
 
 /// Assertion on host and device; nothing in release builds.

@@ -192,9 +192,9 @@ struct NodePair {
     PL_HD NodeReference near() const { return right_t < left_t ? right : left; }
     PL_HD NodeReference far() const { return right_t < left_t ? left : right; }
 };
-PL_HD inline NodePair intersect_children(const BvhView& bvh, NodeReference parent, const BoxRay& ray, float t_max) {
-    const BvhNode left = bvh.nodes[parent.first()];
-    const BvhNode right = bvh.nodes[parent.first() + 1];
+PL_HD inline NodePair intersect_children(const BvhNode* nodes, NodeReference parent, const BoxRay& ray, float t_max) {
+    const BvhNode left = nodes[parent.first()];
+    const BvhNode right = nodes[parent.first() + 1];
     return {left.reference(), right.reference(), intersect_box(left, ray, t_max), intersect_box(right, ray, t_max)};
 }
 
@@ -208,31 +208,38 @@ PL_HD inline bool visit_leaf(const BvhTriangle* triangles, NodeReference leaf, H
     return false;
 }
 
-/// Visits the triangles of all leaves that the ray may enter, nearer children first, until visit_leaf() stops. Nodes beyond the
-/// closest hit are culled.
+/// Visits the leaves below a node that the ray may enter, nearer children first, until `visit(leaf, best)` returns true to stop. Nodes
+/// beyond the closest hit are culled. Returns whether it stopped.
 template <class Visit>
-PL_HD inline void traverse(const BvhView& bvh, const Ray& ray, Hit& best, Visit&& visit) {
-    if (bvh.nodes.empty() || !can_hit(ray)) return;
-    const BvhNode root = bvh.nodes[0];
-    const BoxRay box_ray = make_box_ray(root, ray);
-    if (intersect_box(root, box_ray, best.t) == kInfinity) return;
+PL_HD inline bool traverse_nodes(const BvhNode* nodes, const BvhNode& root, const BoxRay& ray, Hit& best,
+                                 Visit&& visit) {
+    if (intersect_box(root, ray, best.t) == kInfinity) return false;
     NodeMemory memory;
     NodeStack stack(memory);
     NodeReference current = root.reference();
     while (true) {
         if (current.count() > 0) {
-            if (visit_leaf(bvh.triangles.data, current, best, visit)) return;
+            if (visit(current, best)) return true;
         } else {
-            const NodePair pair = intersect_children(bvh, current, box_ray, best.t);
+            const NodePair pair = intersect_children(nodes, current, ray, best.t);
             if (pair.enters_both()) stack.push(pair.far());
             if (pair.enters_any()) {
                 current = pair.near();
                 continue;
             }
         }
-        if (stack.is_empty()) return;
+        if (stack.is_empty()) return false;
         current = stack.pop();
     }
+}
+
+/// Visits the triangles of all leaves that the ray may enter, until visit_leaf() stops.
+template <class Visit>
+PL_HD inline void traverse(const BvhView& bvh, const Ray& ray, Hit& best, Visit&& visit) {
+    if (bvh.nodes.empty() || !can_hit(ray)) return;
+    const BvhNode root = bvh.nodes[0];
+    traverse_nodes(bvh.nodes.data, root, make_box_ray(root, ray), best,
+                   [&](NodeReference leaf, Hit& hit) { return visit_leaf(bvh.triangles.data, leaf, hit, visit); });
 }
 
 }  // namespace pl

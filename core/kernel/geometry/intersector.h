@@ -3,7 +3,9 @@
 
 #include <concepts>
 
+#include "core/kernel/base/features.h"
 #include "core/kernel/geometry/bvh_view.h"
+#include "core/kernel/geometry/instance_traversal.h"
 #include "core/kernel/scene/scene_view.h"
 
 namespace pl {
@@ -30,17 +32,54 @@ PL_HD inline Hit find_hit(const Hierarchy& hierarchy, const Ray& ray, bool any) 
     return best;
 }
 
-/// Traverses SceneView::bvh.
-class BvhIntersector {
-public:
-    PL_HD explicit BvhIntersector(const SceneView& scene) : bvh_(scene.bvh) {}
+/// Goes on from find_hit() with the instances of a scene.
+PL_HD_APART void find_instance_hit(const InstancesView& instances, const Ray& ray, bool any, Hit& best) {
+    if (any && best.found()) return;
+    const ScalarRaySpace space = make_ray_space(ray);
+    traverse_instances(instances, ray, best, [&](Vec3f p0, Vec3f p1, Vec3f p2, std::uint32_t primitive, Hit& hit) {
+        if (primitive == ray.source || primitive == ray.target) return false;
+        intersect_triangle(space, p0, p1, p2, primitive, hit);
+        return any && hit.found();
+    });
+}
 
-    PL_HD Hit closest_hit(const Ray& ray) const { return find_hit(bvh_, ray, false); }
-    PL_HD bool occluded(const Ray& ray) const { return find_hit(bvh_, ray, true).found(); }
+/// The instances of a scene, if kernels may meet any; else nothing.
+template <bool kMayHave>
+struct InstancesIf {
+    InstancesView view;
+
+    PL_HD explicit InstancesIf(const SceneView& scene) : view(scene.instances) {}
+    PL_HD void find(const Ray& ray, bool any, Hit& best) const {
+        if (!view.empty()) find_instance_hit(view, ray, any, best);
+    }
+};
+template <>
+struct InstancesIf<false> {
+    PL_HD explicit InstancesIf(const SceneView&) {}
+    PL_HD void find(const Ray&, bool, Hit&) const {}
+};
+
+/// Traverses SceneView::bvh and, for sets of effects with Instances, SceneView::instances.
+template <FeatureSet F>
+class BvhIntersectorOf {
+public:
+    PL_HD explicit BvhIntersectorOf(const SceneView& scene) : bvh_(scene.bvh), instances_(scene) {}
+
+    PL_HD Hit closest_hit(const Ray& ray) const { return find(ray, false); }
+    PL_HD bool occluded(const Ray& ray) const { return find(ray, true).found(); }
 
 private:
+    PL_HD Hit find(const Ray& ray, bool any) const {
+        Hit best = find_hit(bvh_, ray, any);
+        instances_.find(ray, any, best);
+        return best;
+    }
+
     BvhView bvh_;
+    [[no_unique_address]] InstancesIf<F.has(Feature::Instances)> instances_;
 };
+/// For any scene.
+using BvhIntersector = BvhIntersectorOf<kEveryFeature>;
 static_assert(Intersector<BvhIntersector>);
 
 }  // namespace pl

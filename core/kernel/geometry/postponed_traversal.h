@@ -28,7 +28,7 @@ public:
     /// Goes on from an inner node to the nearer of its children that the ray may enter before `t_max`, or to the last node that
     /// waits. The first leaf met is postponed.
     PL_HD void descend(float t_max) {
-        const NodePair pair = intersect_children(bvh_, next_, box_ray_, t_max);
+        const NodePair pair = intersect_children(bvh_.nodes.data, next_, box_ray_, t_max);
         if (pair.enters_both()) stack_.push(pair.far());
         next_ = pair.enters_any() ? pair.near() : pop();
         postpone();

@@ -38,8 +38,9 @@ PL_HD inline bool meets_hole(const SceneView& scene, const Ray& ray, const Hit& 
 }
 
 /// The part of a ray beyond the hole it met. The ray keeps its end point if it has one.
+template <FeatureSet F>
 PL_HD inline Ray ray_behind(const SceneView& scene, const Ray& ray, const Hit& hit) {
-    const SurfacePoint point = make_surface_point<FeatureSet{}>(scene, hit, -ray.direction);
+    const SurfacePoint point = make_surface_point<F.common(kPlaceFeatures)>(scene, hit, -ray.direction);
     Ray rest = ray;
     rest.origin = spawn_origin(point, ray.direction);
     rest.source = hit.primitive;
@@ -58,7 +59,7 @@ PL_HD inline Hit closest_solid_hit(const SceneView& scene, const I& intersector,
         Ray rest = ray;
         float passed = 0.0f;
         for (int i = 0; i < kMostHoles && meets_hole<F>(scene, rest, hit); ++i) {
-            rest = ray_behind(scene, rest, hit);
+            rest = ray_behind<F>(scene, rest, hit);
             passed += hit.t;
             hit = intersector.closest_hit(rest);
         }

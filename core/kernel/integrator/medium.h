@@ -32,9 +32,9 @@ PL_HD_INLINED void absorb_segment([[maybe_unused]] const SceneView& scene, [[may
         if (scene.absorption.empty()) return;
         std::uint32_t& medium = state.medium.material;
         if (hit.found()) {
-            const std::uint32_t material = scene.triangles[hit.primitive].material;
-            const bool is_front = glm::dot(scene.planes[hit.primitive].normal, -state.ray.direction) >= 0.0f;
-            if (!is_front && !is_black(scene.absorption[material])) medium = material;
+            const FlatPrimitive flat = flat_primitive<F>(scene, hit.primitive);
+            const bool is_front = glm::dot(flat.plane.normal, -state.ray.direction) >= 0.0f;
+            if (!is_front && !is_black(scene.absorption[flat.material])) medium = flat.material;
         }
         if (medium == kNoMedium) return;
         const Vec3f share = transmittance(scene.absorption[medium], hit.t);

@@ -16,16 +16,16 @@ struct TextureAxis {
     Vec3f u{0.0f};      ///< of any length; 0: u does not differ between the corners
     float side = 1.0f;  ///< 1: v is to the left of u; -1: the image is mirrored
 };
-PL_HD inline TextureAxis texture_axis(const SceneView& scene, std::uint32_t primitive) {
-    const Triangle triangle = scene.triangles[primitive];
-    const TriangleUvs corners = scene.textures.triangle_uvs[primitive];
-    const Vec2f origin = scene.textures.uvs[corners.t0];
-    const Vec2f uv1 = scene.textures.uvs[corners.t1] - origin;
-    const Vec2f uv2 = scene.textures.uvs[corners.t2] - origin;
+/// `p0`, `p1`, `p2`: corners of the triangle.
+PL_HD inline TextureAxis texture_axis(const Textures& textures, std::uint32_t triangle, Vec3f p0, Vec3f p1,
+                                      Vec3f p2) {
+    const TriangleUvs corners = textures.triangle_uvs[triangle];
+    const Vec2f origin = textures.uvs[corners.t0];
+    const Vec2f uv1 = textures.uvs[corners.t1] - origin;
+    const Vec2f uv2 = textures.uvs[corners.t2] - origin;
     const float side = uv1.x * uv2.y - uv2.x * uv1.y < 0.0f ? -1.0f : 1.0f;
-    const Vec3f p0 = scene.positions[triangle.v0];
-    const Vec3f dp1 = scene.positions[triangle.v1] - p0;
-    const Vec3f dp2 = scene.positions[triangle.v2] - p0;
+    const Vec3f dp1 = p1 - p0;
+    const Vec3f dp2 = p2 - p0;
     return {side * (uv2.y * dp1 - uv1.y * dp2), side};
 }
 
@@ -40,9 +40,6 @@ PL_HD inline TangentFrame tangent_frame(const TextureAxis& axis, Vec3f normal) {
     if (!(length2 > 0.0f && length2 < kInfinity)) return {};
     const Vec3f x = tangent * (1.0f / std::sqrt(length2));
     return {{x, glm::cross(normal, x), normal}, axis.side};
-}
-PL_HD inline TangentFrame tangent_frame(const SceneView& scene, std::uint32_t primitive, Vec3f normal) {
-    return tangent_frame(texture_axis(scene, primitive), normal);
 }
 
 /// Components of the normal that a texel holds, in the TangentFrame; z is positive.
@@ -63,18 +60,24 @@ PL_HD inline bool has_normal_map(const Textures& textures, std::uint32_t materia
     return !textures.normal_maps.empty() && textures.normal_maps[material].image != kNoImage;
 }
 
-/// The unit shading normal of the front side by the material's normal map; `normal` without one, or where the triangle has no texture
-/// coordinates. `normal`: the unit normal of the front side without the map; `b`: barycentric weights.
-PL_HD inline Vec3f mapped_normal(const SceneView& scene, std::uint32_t primitive, Vec3f b, Vec3f normal) {
-    const Textures& textures = scene.textures;
-    const std::uint32_t material = scene.triangles[primitive].material;
-    if (!has_normal_map(textures, material)) return normal;
-    const TangentFrame tangents = tangent_frame(scene, primitive, normal);
+/// A point of a triangle whose material has a normal map.
+struct MappedPoint {
+    std::uint32_t material;
+    std::uint32_t triangle;
+    TextureAxis axis;
+    Vec3f b;             ///< barycentric weights
+    Vec3f plane_normal;  ///< geometric normal of the front side
+};
+
+/// The unit shading normal of the front side by the material's normal map; `normal` where the triangle has no texture coordinates.
+/// `normal`: the unit normal of the front side without the map.
+PL_HD inline Vec3f mapped_normal(const Textures& textures, const MappedPoint& point, Vec3f normal) {
+    const TangentFrame tangents = tangent_frame(point.axis, normal);
     if (tangents.side == 0.0f) return normal;
-    const NormalMap map = textures.normal_maps[material];
-    const Vec4f texel = sample_image(textures, map.image, uv_at(textures, primitive, b));
+    const NormalMap map = textures.normal_maps[point.material];
+    const Vec4f texel = sample_image(textures, map.image, uv_at(textures, point.triangle, point.b));
     const Vec3f mapped = glm::normalize(tangents.frame.to_world(mapped_components(texel, map, tangents.side)));
-    return above_plane(mapped, scene.planes[primitive].normal);
+    return above_plane(mapped, point.plane_normal);
 }
 
 /// The shading normal for lobes that reflect towards wo: bent as far as it takes that the mirror direction of wo leaves the surface,

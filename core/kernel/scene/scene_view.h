@@ -4,6 +4,7 @@
 
 #include "core/kernel/base/span.h"
 #include "core/kernel/geometry/bvh_view.h"
+#include "core/kernel/scene/instances.h"
 #include "core/kernel/scene/texture.h"
 #include "core/kernel/shading/delta_lights.h"
 #include "core/kernel/shading/far_lights.h"
@@ -19,7 +20,7 @@ struct alignas(16) Triangle {
     std::uint32_t material;
 };
 
-/// Bounds on the origins of rays that start on a triangle; derived in core/scene/triangle_planes.h.
+/// Bounds on the origins of rays that start on a triangle; derived in triangle_plane.h.
 struct alignas(16) TrianglePlane {
     Vec3f normal;          ///< unit, on the front side
     float position_error;  ///< distance to offset ray origins from the plane
@@ -42,8 +43,8 @@ struct Light {
 
 struct SceneView {
     Span<const Vec3f> positions;
-    Span<const Triangle> triangles;
-    Span<const TrianglePlane> planes;              ///< [triangle]
+    Span<const Triangle> triangles;                ///< those that are in the scene directly, then those of meshes
+    Span<const TrianglePlane> planes;              ///< [triangle], of those that are in the scene directly
     Span<const Vec3f> normals;                     ///< unit or 0; empty unless the scene has smooth normals
     Span<const TriangleNormals> triangle_normals;  ///< [triangle], or empty
     Span<const Vec3f> vertex_colors;               ///< [position], each channel in [0, 1]; empty if all are white
@@ -57,7 +58,8 @@ struct SceneView {
     Span<const MaterialBlend> blends;       ///< [material]; empty if none blends
     Span<const Light> lights;               ///< sorted by primitive
     LightTree light_tree;                   ///< over `lights`; empty if they are few
-    BvhView bvh;
+    BvhView bvh;                            ///< of the triangles that are in the scene directly
+    InstancesView instances;
     /// Sum of area x luminance of the emission, divided by the probability that a light sample chooses `lights`.
     float light_power = 0.0f;
     Vec3f environment{0.0f};       ///< constant radiance of escaped rays
@@ -65,6 +67,9 @@ struct SceneView {
     float far_probability = 0.0f;  ///< probability that a light sample chooses `far_lights` instead of `lights`
     Span<const DeltaLight> delta_lights;
     float delta_probability = 0.0f;  ///< that it chooses `delta_lights`; a multiple of 2^-10
+
+    /// Number of the triangles that are in the scene directly: primitives below it are these, others those of instances.
+    PL_HD std::uint32_t direct_triangles() const { return planes.count; }
 };
 
 }  // namespace pl

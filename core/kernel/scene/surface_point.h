@@ -4,7 +4,7 @@
 #include "core/kernel/base/features.h"
 #include "core/kernel/base/numbers.h"
 #include "core/kernel/scene/normal_map.h"
-#include "core/kernel/scene/scene_view.h"
+#include "core/kernel/scene/triangle_plane.h"
 
 namespace pl {
 
@@ -52,22 +52,82 @@ PL_HD inline CornersOf<One> corners_of(const SceneView& scene, const Triangle& t
             unpack(scene.positions[triangle.v2])};
 }
 
+/// Number in SceneView::triangles of the triangle that a primitive is, or shows if it is of an instance.
+template <FeatureSet F>
+PL_HD inline std::uint32_t triangle_of(const SceneView& scene, std::uint32_t primitive) {
+    if constexpr (F.has(Feature::Instances)) {
+        if (primitive >= scene.direct_triangles()) {
+            const Instance& instance = scene.instances.instance_of(primitive);
+            return instance.first_triangle + (primitive - instance.first_primitive);
+        }
+    }
+    return primitive;
+}
+
+/// A primitive in the space of the scene.
+struct FlatPrimitive {
+    CornersOf<One> corners;
+    TrianglePlane plane;
+    std::uint32_t material;
+};
+/// One that an instance shows.
+PL_HD_APART FlatPrimitive instance_primitive(const SceneView& scene, std::uint32_t primitive) {
+    const Instance& instance = scene.instances.instance_of(primitive);
+    const Triangle triangle = scene.triangles[instance.first_triangle + (primitive - instance.first_primitive)];
+    const Vec3f p0 = instance.to_world.point(scene.positions[triangle.v0]);
+    const Vec3f p1 = instance.to_world.point(scene.positions[triangle.v1]);
+    const Vec3f p2 = instance.to_world.point(scene.positions[triangle.v2]);
+    return {{unpack(p0), unpack(p1), unpack(p2)},
+            make_triangle_plane({p0, p1, p2}, scene.instances.longest_edge),
+            triangle.material};
+}
+template <FeatureSet F>
+PL_HD inline FlatPrimitive flat_primitive(const SceneView& scene, std::uint32_t primitive) {
+    if constexpr (F.has(Feature::Instances)) {
+        if (primitive >= scene.direct_triangles()) return instance_primitive(scene, primitive);
+    }
+    const Triangle triangle = scene.triangles[primitive];
+    return {corners_of(scene, triangle), scene.planes[primitive], triangle.material};
+}
+
 /// Unnormalized normal; its length is twice the area.
 PL_HD inline Vec3f triangle_cross(Vec3f p0, Vec3f p1, Vec3f p2) {
     return pack(CornersOf<One>{unpack(p0), unpack(p1), unpack(p2)}.normal());
 }
 
+/// The direction of u on a primitive.
+template <FeatureSet F>
+PL_HD inline TextureAxis texture_axis(const SceneView& scene, std::uint32_t primitive) {
+    const CornersOf<One> corners = flat_primitive<F>(scene, primitive).corners;
+    return texture_axis(scene.textures, triangle_of<F>(scene, primitive), pack(corners.p0), pack(corners.p1),
+                        pack(corners.p2));
+}
+
+/// The interpolated shading normal of the front side. That of an instance is interpolated in the space of its mesh.
 template <FeatureSet F>
 PL_HD inline Vec3f interpolate_normal(const SceneView& scene, std::uint32_t primitive, Vec3f b, Vec3f fallback) {
     if constexpr (F.has(Feature::SmoothNormals)) {
         if (!scene.triangle_normals.empty()) {
-            const TriangleNormals t = scene.triangle_normals[primitive];
-            const Vec3f n = b.x * scene.normals[t.n0] + b.y * scene.normals[t.n1] + b.z * scene.normals[t.n2];
+            const TriangleNormals t = scene.triangle_normals[triangle_of<F>(scene, primitive)];
+            Vec3f n = b.x * scene.normals[t.n0] + b.y * scene.normals[t.n1] + b.z * scene.normals[t.n2];
+            if constexpr (F.has(Feature::Instances)) {
+                if (primitive >= scene.direct_triangles())
+                    n = scene.instances.instance_of(primitive).to_mesh.transposed(n);
+            }
             const float length2 = glm::dot(n, n);
             if (length2 > 0.0f) return n * (1.0f / std::sqrt(length2));
         }
     }
     return fallback;
+}
+
+/// Geometric normal of the front side.
+template <FeatureSet F>
+PL_HD inline Vec3f front_normal(const SceneView& scene, const SurfacePoint& point) {
+    if constexpr (F.has(Feature::Instances))
+        return (point.front ? 1.0f : -1.0f) * point.geometric_normal;
+    else
+        return scene.planes[point.primitive].normal;
 }
 
 /// The point with its shading normal: interpolated if F has SmoothNormals, by the normal map if F has NormalMaps; `attributes` are the
@@ -77,28 +137,30 @@ PL_HD inline SurfacePoint with_shading_normal(const SceneView& scene, SurfacePoi
     if constexpr (F.has(Feature::SmoothNormals)) {
         // Normals of a file may disagree with the winding: the shading normal is flipped to the side of the geometric
         // one.
-        const Vec3f plane_normal = scene.planes[point.primitive].normal;
-        const Vec3f smooth = interpolate_normal<F>(scene, point.primitive, attributes, plane_normal);
+        const Vec3f smooth = interpolate_normal<F>(scene, point.primitive, attributes, front_normal<F>(scene, point));
         point.shading_normal = (glm::dot(smooth, point.geometric_normal) >= 0.0f ? 1.0f : -1.0f) * smooth;
     }
     if constexpr (F.has(Feature::NormalMaps)) {
-        const float side = point.front ? 1.0f : -1.0f;
-        point.shading_normal = side * mapped_normal(scene, point.primitive, attributes, side * point.shading_normal);
+        if (has_normal_map(scene.textures, point.material)) {
+            const float side = point.front ? 1.0f : -1.0f;
+            const MappedPoint mapped{point.material, triangle_of<F>(scene, point.primitive),
+                                     texture_axis<F>(scene, point.primitive), attributes,
+                                     front_normal<F>(scene, point)};
+            point.shading_normal = side * mapped_normal(scene.textures, mapped, side * point.shading_normal);
+        }
     }
     return point;
 }
 
 /// Point at barycentric weights `b` of a triangle, seen from `wo`; the shading normal is the geometric normal.
-PL_HD inline SurfacePoint make_flat_point(const SceneView& scene, std::uint32_t primitive, Vec3f b, Vec3f wo) {
-    const Triangle triangle = scene.triangles[primitive];
-    const TrianglePlane plane = scene.planes[primitive];
+PL_HD inline SurfacePoint make_flat_point(const FlatPrimitive& flat, std::uint32_t primitive, Vec3f b, Vec3f wo) {
     SurfacePoint point;
-    point.position = pack(corners_of(scene, triangle).at(unpack(b)));
-    point.position_error = plane.position_error;
+    point.position = pack(flat.corners.at(unpack(b)));
+    point.position_error = flat.plane.position_error;
     point.primitive = primitive;
-    point.material = triangle.material;
-    point.front = glm::dot(plane.normal, wo) >= 0.0f;
-    point.geometric_normal = (point.front ? 1.0f : -1.0f) * plane.normal;
+    point.material = flat.material;
+    point.front = glm::dot(flat.plane.normal, wo) >= 0.0f;
+    point.geometric_normal = (point.front ? 1.0f : -1.0f) * flat.plane.normal;
     point.shading_normal = point.geometric_normal;
     return point;
 }
@@ -106,21 +168,22 @@ PL_HD inline SurfacePoint make_flat_point(const SceneView& scene, std::uint32_t 
 /// Point at exactly these barycentric weights, with its shading normal.
 template <FeatureSet F>
 PL_HD inline SurfacePoint make_surface_point(const SceneView& scene, std::uint32_t primitive, Vec3f b, Vec3f wo) {
-    return with_shading_normal<F>(scene, make_flat_point(scene, primitive, b, wo), b);
+    return with_shading_normal<F>(scene, make_flat_point(flat_primitive<F>(scene, primitive), primitive, b, wo), b);
 }
 
 /// Point of a hit, kept at a distance from the triangle's edges so that rounding cannot put the origin of the next
 /// ray behind an adjacent wall. Only the position moves: normals stay smooth on the smallest triangles.
+template <FeatureSet F>
 PL_HD inline SurfacePoint make_flat_point(const SceneView& scene, const Hit& hit, Vec3f wo) {
-    return make_flat_point(scene, hit.primitive, inner_barycentrics(hit, scene.planes[hit.primitive].edge_margin),
-                           wo);
+    const FlatPrimitive flat = flat_primitive<F>(scene, hit.primitive);
+    return make_flat_point(flat, hit.primitive, inner_barycentrics(hit, flat.plane.edge_margin), wo);
 }
 template <FeatureSet F>
 PL_HD inline SurfacePoint make_surface_point(const SceneView& scene, const Hit& hit, Vec3f wo) {
     if constexpr (F.has_any(kNormalFeatures))
-        return with_shading_normal<F>(scene, make_flat_point(scene, hit, wo), hit_weights(hit));
+        return with_shading_normal<F>(scene, make_flat_point<F>(scene, hit, wo), hit_weights(hit));
     else
-        return make_flat_point(scene, hit, wo);
+        return make_flat_point<F>(scene, hit, wo);
 }
 
 /// A surface point without its surface: its normal is on any side. `error`: SurfacePoint::position_error.

@@ -76,8 +76,8 @@ struct Textures {
 };
 
 /// Texture coordinates at barycentric weights of a triangle.
-PL_HD inline Vec2f uv_at(const Textures& textures, std::uint32_t primitive, Vec3f b) {
-    const TriangleUvs t = textures.triangle_uvs[primitive];
+PL_HD inline Vec2f uv_at(const Textures& textures, std::uint32_t triangle, Vec3f b) {
+    const TriangleUvs t = textures.triangle_uvs[triangle];
     return b.x * textures.uvs[t.t0] + b.y * textures.uvs[t.t1] + b.z * textures.uvs[t.t2];
 }
 
@@ -103,11 +103,10 @@ PL_HD inline Vec4f sample_image(const Textures& textures, std::uint32_t index, V
 inline constexpr float kLeastOpacity = 0.5f;
 
 /// Opacity of a triangle at barycentric weights `b`, in [0, 1]: 0 in a hole, 1 where the surface is solid.
-PL_HD inline float opacity_of(const Textures& textures, const MaterialOpacity& material, std::uint32_t primitive,
+PL_HD inline float opacity_of(const Textures& textures, const MaterialOpacity& material, std::uint32_t triangle,
                               Vec3f b) {
     float opacity = material.factor;
-    if (material.image != kNoImage)
-        opacity *= sample_image(textures, material.image, uv_at(textures, primitive, b)).w;
+    if (material.image != kNoImage) opacity *= sample_image(textures, material.image, uv_at(textures, triangle, b)).w;
     if (material.blends != 0) return opacity;
     return opacity < kLeastOpacity ? 0.0f : 1.0f;
 }

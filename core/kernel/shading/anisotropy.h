@@ -57,11 +57,12 @@ private:
 };
 
 /// SceneView::anisotropies must not be empty.
+template <FeatureSet F>
 PL_HD inline AnisotropicFacets::Grain grain_of(const SceneView& scene, const SurfacePoint& surface,
                                                std::uint32_t material) {
     const MaterialAnisotropy anisotropy = scene.anisotropies[material];
     if (anisotropy.ratio == 1.0f) return {};
-    return {anisotropy, texture_axis(scene, surface.primitive), surface.front};
+    return {anisotropy, texture_axis<F>(scene, surface.primitive), surface.front};
 }
 
 }  // namespace pl

@@ -16,7 +16,8 @@ inline constexpr std::uint32_t kMostBlends = 8;
 struct MaterialPoint {
     std::uint32_t material;
     std::uint32_t primitive;
-    Vec3f b;  ///< barycentric weights
+    std::uint32_t triangle;  ///< the primitive's, see triangle_of()
+    Vec3f b;                 ///< barycentric weights
 };
 
 /// A number in [0, 1), uniform over arrivals: a function of the bits of a point and of the direction of arrival alone, so that whoever
@@ -34,7 +35,7 @@ PL_HD inline float number_of_choice(const MaterialPoint& point, Vec3f wo, std::u
 /// Share of the other material at a point.
 PL_HD inline float share_at(const Textures& textures, const MaterialBlend& blend, const MaterialPoint& point) {
     if (blend.image == kNoImage) return blend.share;
-    return blend.share * sample_image(textures, blend.image, uv_at(textures, point.primitive, point.b)).x;
+    return blend.share * sample_image(textures, blend.image, uv_at(textures, point.triangle, point.b)).x;
 }
 
 /// Number of the material that a point of a surface with the material `point.material` shows towards wo. SceneView::blends must not be

@@ -227,7 +227,7 @@ PL_HD inline auto grain_at([[maybe_unused]] const SceneView& scene, [[maybe_unus
                            [[maybe_unused]] std::uint32_t material) {
     typename FacetsOf<F>::Grain grain;
     if constexpr (F.has(Feature::Anisotropy)) {
-        if (!scene.anisotropies.empty()) grain = grain_of(scene, surface, material);
+        if (!scene.anisotropies.empty()) grain = grain_of<F>(scene, surface, material);
     }
     return grain;
 }

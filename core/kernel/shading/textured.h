@@ -13,7 +13,7 @@ inline constexpr float kLeastTexturedRoughness = 0.03f;
 /// The material that a surface shows towards wo, at barycentric weights `b`: its own unless it blends.
 template <FeatureSet F>
 PL_HD inline MaterialPoint shown_material(const SceneView& scene, const SurfacePoint& surface, Vec3f b, Vec3f wo) {
-    MaterialPoint point{surface.material, surface.primitive, b};
+    MaterialPoint point{surface.material, surface.primitive, triangle_of<F>(scene, surface.primitive), b};
     if constexpr (F.has(Feature::Blends)) {
         if (!scene.blends.empty()) point.material = blended_material(scene, point, wo);
     }
@@ -23,10 +23,10 @@ PL_HD inline MaterialPoint shown_material(const SceneView& scene, const SurfaceP
 PL_HD inline Vec3f color_of(Vec4f texel) { return {texel.x, texel.y, texel.z}; }
 
 /// Colors of a triangle's vertices, interpolated.
-PL_HD inline Vec3f vertex_color_at(const SceneView& scene, std::uint32_t primitive, Vec3f b) {
-    const Triangle triangle = scene.triangles[primitive];
-    return b.x * scene.vertex_colors[triangle.v0] + b.y * scene.vertex_colors[triangle.v1] +
-           b.z * scene.vertex_colors[triangle.v2];
+PL_HD inline Vec3f vertex_color_at(const SceneView& scene, std::uint32_t triangle, Vec3f b) {
+    const Triangle corners = scene.triangles[triangle];
+    return b.x * scene.vertex_colors[corners.v0] + b.y * scene.vertex_colors[corners.v1] +
+           b.z * scene.vertex_colors[corners.v2];
 }
 
 /// Value of the albedo texture times the colors of the vertices, at most 1 per channel; white without either.
@@ -37,12 +37,12 @@ PL_HD inline Vec3f tint_at(const SceneView& scene, const MaterialPoint& point) {
         if (!scene.textures.of_material.empty()) {
             const std::uint32_t image = scene.textures.of_material[point.material].albedo;
             if (image != kNoImage) {
-                const Vec2f uv = uv_at(scene.textures, point.primitive, point.b);
+                const Vec2f uv = uv_at(scene.textures, point.triangle, point.b);
                 tint = glm::min(color_of(sample_image(scene.textures, image, uv)), Vec3f{1.0f});
             }
         }
         if (!scene.vertex_colors.empty())
-            tint *= glm::min(vertex_color_at(scene, point.primitive, point.b), Vec3f{1.0f});
+            tint *= glm::min(vertex_color_at(scene, point.triangle, point.b), Vec3f{1.0f});
     }
     return tint;
 }
@@ -64,7 +64,7 @@ PL_HD inline SurfaceLobes lobes_at(const SceneView& scene, const MaterialPoint& 
         if (!scene.textures.of_material.empty()) {
             const std::uint32_t image = scene.textures.of_material[point.material].roughness;
             if (image != kNoImage) {
-                const Vec2f uv = uv_at(scene.textures, point.primitive, point.b);
+                const Vec2f uv = uv_at(scene.textures, point.triangle, point.b);
                 const float share = sample_image(scene.textures, image, uv).x;
                 lobes.roughness = clamp_to(lobes.roughness * share, kLeastTexturedRoughness, 1.0f);
             }
@@ -81,7 +81,7 @@ PL_HD inline Vec3f emitted_at(const SceneView& scene, const SurfacePoint& surfac
         if (!scene.textures.of_material.empty() && !is_black(emitted)) {
             const MaterialImages& images = scene.textures.of_material[surface.material];
             if (images.emission != kNoImage) {
-                const Vec2f uv = uv_at(scene.textures, surface.primitive, b);
+                const Vec2f uv = uv_at(scene.textures, triangle_of<F>(scene, surface.primitive), b);
                 return emitted *
                        (images.emission_scale * color_of(sample_image(scene.textures, images.emission, uv)));
             }
@@ -94,8 +94,10 @@ PL_HD inline Vec3f emitted_at(const SceneView& scene, const SurfacePoint& surfac
 template <FeatureSet F>
 PL_HD inline float opacity_at(const SceneView& scene, std::uint32_t primitive, Vec3f b) {
     if constexpr (F.has(Feature::CutOuts)) {
-        if (!scene.opacities.empty())
-            return opacity_of(scene.textures, scene.opacities[scene.triangles[primitive].material], primitive, b);
+        if (!scene.opacities.empty()) {
+            const std::uint32_t triangle = triangle_of<F>(scene, primitive);
+            return opacity_of(scene.textures, scene.opacities[scene.triangles[triangle].material], triangle, b);
+        }
     }
     return 1.0f;
 }

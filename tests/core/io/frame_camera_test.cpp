@@ -5,6 +5,8 @@
 
 #include "core/io/obj.h"
 #include "core/io/open_side.h"
+#include "core/scene/instances.h"
+#include "core/scene/up_axis.h"
 #include "tests/support/catch.hpp"
 #include "tests/support/scenes/shapes.h"
 
@@ -148,4 +150,19 @@ TEST_CASE("A closed box, a table and a plane have no open side") {
     for (const Vec3f p : {Vec3f(-1, 0, -1), Vec3f(-1, 0, 1), Vec3f(1, 0, 1), Vec3f(1, 0, -1)}) add_vertex(plane, p);
     add_quad(plane, 0, 1, 2, 3);
     CHECK_FALSE(open_side(plane).has_value());
+}
+
+TEST_CASE("Instances are in the picture, as boxes") {
+    SceneDescription scene = box({-1, -1, -1}, {1, 1, 1});
+    scene.meshes = {{"box", 0, static_cast<std::uint32_t>(scene.triangles.size())}};
+    scene.instances = {{0, glm::mat4x3(2, 0, 0, 0, 1, 0, 0, 0, 1, 5, 0, 0)}, {0, glm::mat4x3(1.0f)}};
+    SceneDescription copied = scene;
+    expand_instances(copied);
+    scene.up = copied.up = guess_up(scene);
+    CHECK(scene.up == guess_up(copied));
+    const CameraDescription camera = frame_camera(scene);
+    const CameraDescription other = frame_camera(copied);
+    CHECK(glm::distance(camera.eye, other.eye) < 1e-4f);
+    CHECK(glm::distance(camera.target, other.target) < 1e-4f);
+    CHECK(extent_in_picture(copied, camera) == Approx(0.9));
 }

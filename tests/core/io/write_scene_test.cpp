@@ -7,6 +7,7 @@
 #include "core/io/image.h"
 #include "core/io/load_scene.h"
 #include "core/io/write_mesh.h"
+#include "core/scene/instances.h"
 #include "core/scene/scene_hash.h"
 #include "tests/support/catch.hpp"
 #include "tests/support/files/input_error.h"
@@ -290,4 +291,32 @@ TEST_CASE("a scene file lists cameras, of which the first is shown unless it has
     CHECK_THROWS_AS(load(", \"cameras\": [{\"aspect\": -1}]"), Error);
     CHECK_THROWS_AS(load(", \"cameras\": [{\"nam\": \"x\"}]"), Error);
     CHECK_THROWS_AS(load(", \"normals\": \"flat\""), Error);
+}
+
+TEST_CASE("write_scene: instances are written as copies, with the corners and normals that they have") {
+    SceneDescription scene = triangle_of({.name = "wall", .albedo = glm::vec3(0.5f)});
+    scene.positions.insert(scene.positions.end(), {{0, 0, 1}, {1, 0, 1}, {0, 1, 1}});
+    scene.normals = {{0, 0, 1}, glm::normalize(glm::vec3(0.1f, 0.2f, 1))};
+    scene.triangles.push_back({.vertex = {3, 4, 5}, .normal = {0, 1, 0}, .uv = {0, 1, 2}});
+    scene.meshes = {{"leaf", 1, 1}};
+    scene.instances = {{0, glm::mat4x3(2, 0.1f, 0, 0, 3, 0.3f, 0.5f, 0, 1, 5, 6, 7)}, {0, glm::mat4x3(1.0f)}};
+    const SceneDescription read = rewritten(scene);
+    SceneDescription copied = scene;
+    expand_instances(copied);
+    REQUIRE(read.triangles.size() == 3);
+    CHECK(read.meshes.empty());
+    CHECK(read.positions == copied.positions);
+    CHECK(read.normals == copied.normals);
+    CHECK(scene_hash(read) == scene_hash(copied));
+}
+
+TEST_CASE("write_scene: more copies than a scene file may have are refused, and nothing is written") {
+    SceneDescription scene = triangle_of({.name = "wall"});
+    scene.triangles.resize(70000, scene.triangles[0]);
+    scene.meshes = {{"leaf", 0, 70000}};
+    scene.instances.resize(1000);
+    const TemporaryFolder folder;
+    CHECK_THAT(input_error([&] { write_scene(scene, folder.path() / "s.json"); }),
+               contains("scene files hold no instances") && contains("at most 67108864") && contains("got 70000000"));
+    CHECK(std::filesystem::is_empty(folder.path()));
 }

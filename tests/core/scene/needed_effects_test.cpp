@@ -80,7 +80,7 @@ TEST_CASE("The scan of a scene finds the effects of all its materials") {
         CHECK(needed == needed_by_look(scene));
         seen |= needed.bits;
     }
-    // All but light samples, images and the lens, which the random scenes have none of.
+    // All but light samples, images, the lens and instances, which the random scenes have none of.
     CHECK(seen == features(Feature::SmoothNormals, Feature::Environment, Feature::Specular, Feature::Rough,
                            Feature::Plastic, Feature::CutOuts, Feature::EnvironmentMap, Feature::Absorption,
                            Feature::ThinPanes, Feature::Blends, Feature::Anisotropy)
@@ -103,6 +103,10 @@ TEST_CASE("Effects that a scene does not need take no memory") {
     CHECK(packed.opacities.capacity() == 0);
     CHECK(packed.blends.capacity() == 0);
     CHECK(packed.anisotropies.capacity() == 0);
+    CHECK(packed.instances.capacity() == 0);
+    CHECK(packed.instance_nodes.capacity() == 0);
+    CHECK(packed.mesh_nodes.capacity() == 0);
+    CHECK(packed.mesh_triangles.capacity() == 0);
     CHECK(packed.uvs.capacity() == 0);
     CHECK(packed.vertex_colors.capacity() == 0);
     CHECK(packed.map_texels.capacity() == 0);

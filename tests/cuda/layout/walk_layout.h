@@ -95,6 +95,10 @@ template <class Base, class T>
 PL_HD constexpr Base& base_of(T& value) {
     return value;
 }
+PL_HD constexpr auto members(Affine& v) {
+    static_assert(sizeof v == 3 * sizeof v.rows[0]);
+    return std::tie(v.rows[0], v.rows[1], v.rows[2]);
+}
 PL_HD constexpr auto members(TableView& v) {
     const auto all = std::tie(base_of<PlacementView>(v), base_of<TableArrays<ConstSpan, Span>>(v), v.cells,
                               v.light_clusters, v.radiance_unit, v.writers, v.records);

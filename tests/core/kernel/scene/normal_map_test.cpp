@@ -80,7 +80,7 @@ TEST_CASE("A normal map bends the interpolated normals of a smooth surface") {
     const HostScene packed = pack_scene(scene);
     const auto point = make_surface_point<kMapped.with(Feature::SmoothNormals)>(packed.view(), kHit, {0, 0, 1});
     CHECK(are_near(point.shading_normal, smooth));
-    const TangentFrame tangents = tangent_frame(packed.view(), 0, smooth);
+    const TangentFrame tangents = tangent_frame(texture_axis<kMapped>(packed.view(), 0), smooth);
     REQUIRE(tangents.side == 1.0f);
     for (const Vec3f axis : {tangents.frame.x, tangents.frame.y, tangents.frame.z})
         CHECK(glm::length(axis) == Approx(1.0f));

@@ -66,7 +66,7 @@ TEST_CASE("Colors of vertices are interpolated, and multiply the image") {
     constexpr FeatureSet kTextures = features(Feature::Textures);
     HostScene scene = painted(true);
     const Vec3f b{0.5f, 0.25f, 0.25f};
-    const MaterialPoint point{.material = 0, .primitive = 0, .b = b};
+    const MaterialPoint point{.material = 0, .primitive = 0, .triangle = 0, .b = b};
     const Vec3f image = tint_at<kTextures>(scene.view(), point);
     scene.vertex_colors = {{1, 0, 0.5f}, {0, 1, 0.5f}, {0, 0.5f, 0.5f}};
     CHECK(vertex_color_at(scene.view(), 0, b) == Vec3f{0.5f, 0.375f, 0.5f});
@@ -75,7 +75,7 @@ TEST_CASE("Colors of vertices are interpolated, and multiply the image") {
     CHECK(tint_at<FeatureSet{}>(scene.view(), point) == Vec3f{1.0f});
     // Weights add up to 1 but for rounding; an albedo stays at most 1.
     scene.vertex_colors.assign(3, Vec3f{1.0f});
-    CHECK(tint_at<kTextures>(scene.view(), {0, 0, {0.4000001f, 0.3f, 0.3000001f}}).x <= 1.0f);
+    CHECK(tint_at<kTextures>(scene.view(), {0, 0, 0, {0.4000001f, 0.3f, 0.3000001f}}).x <= 1.0f);
 }
 
 TEST_CASE("Coordinates follow the corners, and a hole is where opacity is below one half unless it blends") {

@@ -56,7 +56,8 @@ TEST_CASE(
     Pairs next_triangle, near_point, near_direction, next_choice, hole;
     for (std::uint32_t i = 0; i < kArrivals; ++i) {
         const Arrival arrival = random_arrival(random);
-        const MaterialPoint point{.material = 3, .primitive = random.below(50), .b = arrival.b};
+        const std::uint32_t primitive = random.below(50);
+        const MaterialPoint point{.material = 3, .primitive = primitive, .triangle = primitive, .b = arrival.b};
         const float number = number_of_choice(point, arrival.wo, 0);
         REQUIRE((number >= 0.0f && number < 1.0f));
         MaterialPoint other = point;

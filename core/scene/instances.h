@@ -1,0 +1,27 @@
+// Meshes that a scene shows more than once: their numbers of triangles, and the scene with copies in their place.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "core/scene/description.h"
+
+namespace pl {
+
+/// Number of the triangles that are in the scene directly: the first ones of SceneDescription::triangles.
+std::uint32_t direct_triangles(const SceneDescription& scene);
+
+/// Number of the triangles that rays may meet, with those of every instance.
+std::uint64_t shown_triangles(const SceneDescription& scene);
+
+/// Whether a material is on a mesh.
+bool is_of_mesh(const SceneDescription& scene, std::uint32_t material);
+
+/// Replaces instances by copies of their meshes, in their order behind the direct triangles: corners and normals are those that
+/// kernels compute, and primitives keep their numbers.
+void expand_instances(SceneDescription& scene);
+
+/// The errors of meshes and instances, a line for each kind, which starts with a line break.
+std::string complaints_about_instances(const SceneDescription& scene);
+
+}  // namespace pl
