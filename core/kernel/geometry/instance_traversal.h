@@ -12,7 +12,7 @@ PL_HD inline Ray ray_in_mesh(const Instance& instance, const Ray& ray) {
     return {.origin = instance.to_mesh.point(ray.origin), .direction = instance.to_mesh.vector(ray.direction)};
 }
 
-/// The ray for the boxes of a mesh: see box_slack(), and Instance::error for what the transformation adds.
+/// The ray for the boxes of a mesh, with the slack of box_slack() and the error of the transformation, see Instance::error.
 PL_HD inline BoxRay make_mesh_box_ray(const Instance& instance, const BvhNode& root, const Ray& ray,
                                       const Ray& in_mesh) {
     const float reach =

@@ -1,4 +1,4 @@
-// Instances: meshes that a scene shows any number of times, each time transformed. Their triangles are stored once; what rays meet are
+// Instances: meshes that a scene shows any number of times, each time transformed. Their triangles are stored once; rays meet
 // primitives, which number the triangles of every instance. A scene with copies in the place of instances has the same primitives with
 // the same corners, bit by bit.
 #pragma once
