@@ -24,26 +24,8 @@ IntersectorChoice best_for(const SceneView& scene) {
 }  // namespace
 
 BatchTracer::BatchTracer(const SceneView& scene, IntersectorChoice choice, int threads)
-    : intersector_(choose(scene, choice == IntersectorChoice::Auto ? best_for(scene) : choice, threads)),
-      instances_(scene.instances), has_instances_(!scene.instances.empty()) {}
-
-void BatchTracer::find_closest_instances(RayBatch& batch, std::uint32_t count) const {
-    for (std::uint32_t i = 0; i < count; ++i) {
-        Hit hit = batch.hit(i);
-        const std::uint32_t before = hit.primitive;
-        find_instance_hit(instances_, batch.ray(i), false, hit);
-        if (hit.primitive != before) batch.set_hit(i, hit);
-    }
-}
-
-void BatchTracer::find_occluding_instances(RayBatch& batch, std::uint32_t count) const {
-    for (std::uint32_t i = 0; i < count; ++i) {
-        if (batch.occluded(i)) continue;
-        const Ray ray = batch.ray(i);
-        Hit hit{.t = ray.t_max};
-        find_instance_hit(instances_, ray, true, hit);
-        if (hit.found()) batch.set_occluded(i, true);
-    }
+    : intersector_(choose(scene, choice == IntersectorChoice::Auto ? best_for(scene) : choice, threads)) {
+    if (!scene.instances.empty()) instances_.emplace(scene.instances);
 }
 
 BatchTracer::AnyIntersector BatchTracer::choose(const SceneView& scene, IntersectorChoice choice,

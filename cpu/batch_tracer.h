@@ -1,11 +1,13 @@
 // The batch intersector of a scene: selected once per scene, called once per batch.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <variant>
 
 #include "cpu/bvh_batch.h"
 #include "cpu/dense_intersector.h"
+#include "cpu/instance_tracer.h"
 #include "cpu/wide_intersector.h"
 #if PL_EMBREE_MAJOR > 0
 #include "cpu/embree_intersector.h"
@@ -24,17 +26,17 @@ public:
 
     void find_closest(RayBatch& batch, std::uint32_t count) const {
         std::visit([&](const auto& intersector) { intersector.find_closest(batch, count); }, intersector_);
-        if (has_instances_) find_closest_instances(batch, count);
+        if (instances_) instances_->find_closest(batch, count);
     }
     void find_occluded(RayBatch& batch, std::uint32_t count) const {
         std::visit([&](const auto& intersector) { intersector.find_occluded(batch, count); }, intersector_);
-        if (has_instances_) find_occluding_instances(batch, count);
+        if (instances_) instances_->find_occluding(batch, count);
     }
 
     /// Reads the same triangles from other arrays, which must outlive the tracer; the previous ones may be freed.
     void move_to(const SceneView& scene) {
         std::visit([&](auto& intersector) { intersector.move_to(scene); }, intersector_);
-        instances_ = scene.instances;
+        if (instances_) instances_->move_to(scene.instances);
     }
 
     /// Display name: "dense (avx512)", "wide (avx512)", "embree 3.13.5", "bvh".
@@ -48,13 +50,8 @@ private:
 #endif
     static AnyIntersector choose(const SceneView& scene, IntersectorChoice choice, int threads);
 
-    /// Ray by ray, after the triangles that are in the scene directly.
-    void find_closest_instances(RayBatch& batch, std::uint32_t count) const;
-    void find_occluding_instances(RayBatch& batch, std::uint32_t count) const;
-
-    AnyIntersector intersector_;
-    InstancesView instances_;
-    bool has_instances_;
+    AnyIntersector intersector_;               ///< of the triangles that are in the scene directly
+    std::optional<InstanceTracer> instances_;  ///< traced afterwards
 };
 static_assert(BatchIntersector<BatchTracer>);
 

@@ -9,6 +9,7 @@
 #include "core/kernel/base/math.h"
 #include "core/kernel/base/rng.h"
 #include "core/kernel/guiding/table_field.h"
+#include "core/kernel/scene/instances.h"
 #include "core/kernel/shading/lights.h"
 #include "cpu/ray_batch.h"
 #include "cpu/wide_hierarchy.h"
@@ -38,6 +39,18 @@ struct WideView {
     const WideNode* nodes;  ///< at least one
     const BvhTriangle* triangles;
     std::uint32_t exceeds_caches;  ///< 1: memory is waited for
+};
+
+/// The instances of a scene and their wide hierarchies as plain pointers.
+struct WideInstances {
+    BvhNode root;           ///< the bounds of all
+    const WideNode* nodes;  ///< over `order`, at least one; an instance to a leaf
+    const std::uint32_t* order;
+    const Instance* list;
+    const BvhNode* mesh_bounds;  ///< [Instance::root]
+    const std::uint32_t* roots;  ///< [instance]: of its mesh, in mesh_nodes
+    const WideNode* mesh_nodes;
+    const BvhTriangle* mesh_triangles;
 };
 
 /// The arguments of Rng::draw that a batch has in common.
@@ -233,6 +246,11 @@ struct LaneKernels {
     void (*find_closest_wide)(const WideView& scene, const RayGroup* rays, HitGroup* hits, std::uint32_t count);
     void (*find_occluded_wide)(const WideView& scene, const RayGroup* rays, OcclusionMask* masks,
                                std::uint32_t count);
+    /// Goes on from hits among other triangles, or from occlusion by them, with the instances of a scene.
+    void (*find_closest_instances)(const WideInstances& scene, const RayGroup* rays, HitGroup* hits,
+                                   std::uint32_t count);
+    void (*find_occluding_instances)(const WideInstances& scene, const RayGroup* rays, OcclusionMask* masks,
+                                     std::uint32_t count);
     /// Evaluates Rng::draw() for every counter.
     void (*draw)(const DrawKey& key, const CounterGroup* counters, NumberGroup* numbers, std::uint32_t groups);
     /// Evaluates vertex_numbers() for every counter.

@@ -4,6 +4,7 @@
 
 #include "cpu/dense_lanes.h"
 #include "cpu/guided_lanes.h"
+#include "cpu/instance_lanes.h"
 #include "cpu/light_lanes.h"
 #include "cpu/light_tree_lanes.h"
 #include "cpu/lookup_lanes.h"
@@ -28,6 +29,15 @@ void find_closest_wide(const WideView& scene, const RayGroup* rays, HitGroup* hi
 
 void find_occluded_wide(const WideView& scene, const RayGroup* rays, OcclusionMask* masks, std::uint32_t count) {
     occlusion_in_wide(scene, rays, masks, count);
+}
+
+void find_closest_instances(const WideInstances& scene, const RayGroup* rays, HitGroup* hits, std::uint32_t count) {
+    closest_instances(scene, rays, hits, count);
+}
+
+void find_occluding_instances(const WideInstances& scene, const RayGroup* rays, OcclusionMask* masks,
+                              std::uint32_t count) {
+    occluding_instances(scene, rays, masks, count);
 }
 
 void draw(const DrawKey& key, const CounterGroup* counters, NumberGroup* numbers, std::uint32_t groups) {
@@ -122,11 +132,31 @@ bool has_samples(const TableUpdateView& field, std::uint32_t volume) { return an
 bool update_table(const TableUpdateView& field, std::uint32_t volume) { return update_table_in_lanes(field, volume); }
 
 constexpr LaneKernels lane_kernels_named(const char* name) {
-    return {name,          find_closest,   find_occluded,        find_closest_wide,    find_occluded_wide,
-            draw,          draw_vertices,  find_points,          read_cells,           find_nearest,
-            sample_rows,   sample_guided,  weigh_guided,         sample_lambert,       weigh_lambert,
-            sample_lights, choose_by_tree, find_light_densities, sample_chosen_lights, weigh_lights,
-            scatter,       has_samples,    update_table};
+    return {name,
+            find_closest,
+            find_occluded,
+            find_closest_wide,
+            find_occluded_wide,
+            find_closest_instances,
+            find_occluding_instances,
+            draw,
+            draw_vertices,
+            find_points,
+            read_cells,
+            find_nearest,
+            sample_rows,
+            sample_guided,
+            weigh_guided,
+            sample_lambert,
+            weigh_lambert,
+            sample_lights,
+            choose_by_tree,
+            find_light_densities,
+            sample_chosen_lights,
+            weigh_lights,
+            scatter,
+            has_samples,
+            update_table};
 }
 
 }  // namespace

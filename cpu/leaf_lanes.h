@@ -67,6 +67,17 @@ private:
     const float* triangles_[kTestWidth];
 };
 
+/// The triangles that a ray ignores, see Ray.
+struct ExcludedPair {
+    std::uint32_t source, target;
+};
+
+/// Triangles as they are.
+struct AsStored {
+    PL_INLINE void place(TestFloat (&)[4]) const {}
+    PL_INLINE TestUint primitives(TestUint stored) const { return stored; }
+};
+
 /// Tests the triangles of a leaf and updates the closest hit. Returns true if there is one and any will do.
 template <bool kAny>
 class LeafTest {
@@ -82,10 +93,12 @@ public:
                  {}},
           first_axis_(group.first_axis[lane]) {}
 
-    PL_INLINE bool find(const BvhTriangle* triangles, WideReference leaf, std::uint32_t source, std::uint32_t target,
-                        Hit& best) const {
+    /// `placing` takes the rows of corners, and numbers of triangles, from those stored to those of the scene.
+    template <class Placing = AsStored>
+    PL_INLINE bool find(const BvhTriangle* triangles, WideReference leaf, const ExcludedPair& excluded, Hit& best,
+                        const Placing& placing = {}) const {
         for (std::uint32_t first = 0; first < leaf.count(); first += kTestWidth)
-            if (find_in({triangles, leaf, first}, leaf.count() - first, source, target, best)) return true;
+            if (find_in({triangles, leaf, first}, leaf.count() - first, excluded, best, placing)) return true;
         return false;
     }
 
@@ -97,16 +110,20 @@ private:
                             rows[kCyclic[first_axis_ + 2]]);
     }
 
-    PL_INLINE bool find_in(const LeafTriangles& triangles, std::uint32_t count, std::uint32_t source,
-                           std::uint32_t target, Hit& best) const {
+    template <class Placing>
+    PL_INLINE bool find_in(const LeafTriangles& triangles, std::uint32_t count, const ExcludedPair& without,
+                           Hit& best, const Placing& placing) const {
         TestFloat rows[3][4];
-        for (std::uint32_t corner = 0; corner < 3; ++corner) triangles.load(corner, rows[corner]);
+        for (std::uint32_t corner = 0; corner < 3; ++corner) {
+            triangles.load(corner, rows[corner]);
+            placing.place(rows[corner]);
+        }
         const TestCorner a = to_space(rows[0]);
         const TestCorner b = to_space(rows[1]);
         const TestCorner c = to_space(rows[2]);
         const auto [e, inside] = test_lines(a, b, c);
-        const auto primitive = std::bit_cast<TestUint>(rows[0][3]);
-        const TestInt excluded = (primitive == source) | (primitive == target);
+        const TestUint primitive = placing.primitives(std::bit_cast<TestUint>(rows[0][3]));
+        const TestInt excluded = (primitive == without.source) | (primitive == without.target);
         std::uint32_t lanes = mask_bits(inside & ~excluded) & ((2u << (count - 1)) - 1u);
         if (lanes == 0) return false;
         const TestFloat determinant = e.u + e.v + e.w;

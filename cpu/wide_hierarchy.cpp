@@ -27,24 +27,13 @@ struct SubtreeCosts {
 
 class Widener {
 public:
-    explicit Widener(const BvhView& bvh) : bvh_(bvh), costs_(bvh.nodes.count) {}
+    Widener(Span<const BvhNode> narrow, std::uint32_t most) : narrow_(narrow), most_(most), costs_(narrow.count) {}
 
-    std::vector<WideNode> make() {
-        if (bvh_.nodes.empty()) return {};
+    std::vector<WideNode> make(std::span<const std::uint32_t> roots) {
         // Children have higher numbers than their parents.
-        for (std::uint32_t i = bvh_.nodes.count; i-- > 0;) find_costs(i);
-        nodes_.emplace_back();
-        std::vector<std::pair<std::uint32_t, std::uint32_t>> tasks{{0u, 0u}};
-        while (!tasks.empty()) {
-            const auto [wide, narrow] = tasks.back();
-            tasks.pop_back();
-            children_.clear();
-            if (costs_[narrow].is_leaf)
-                children_.push_back(narrow);
-            else
-                split(narrow, kWideChildren);
-            fill(wide, tasks);
-        }
+        for (std::uint32_t i = narrow_.count; i-- > 0;) find_costs(i);
+        nodes_.resize(roots.size());
+        for (std::uint32_t i = 0; i < roots.size(); ++i) make_below(i, roots[i]);
         return std::move(nodes_);
     }
 
@@ -52,7 +41,7 @@ private:
     /// The least cost of the two children of a node as `most` children, at most kWideChildren, and how many of them the
     /// left one gets.
     std::pair<float, std::uint32_t> cheapest_split(std::uint32_t node, std::uint32_t most) const {
-        const std::uint32_t left = bvh_.nodes[node].first;
+        const std::uint32_t left = narrow_[node].first;
         std::pair<float, std::uint32_t> best{std::numeric_limits<float>::infinity(), 1};
         for (std::uint32_t i = 1; i < most; ++i) {
             const float cost = costs_[left].as[i] + costs_[left + 1].as[most - i];
@@ -62,7 +51,7 @@ private:
     }
 
     void find_costs(std::uint32_t index) {
-        const BvhNode& node = bvh_.nodes[index];
+        const BvhNode& node = narrow_[index];
         SubtreeCosts& costs = costs_[index];
         const float area = half_area(node);
         float inner = std::numeric_limits<float>::infinity();
@@ -74,19 +63,33 @@ private:
             costs.count = costs_[node.first].count + costs_[node.first + 1].count;
             inner = cheapest_split(index, kWideChildren).first + kNodeCost * area;
         }
-        const float leaf = costs.count <= kWideChildren
-                               ? area * (kLeafCost + kTriangleCost * static_cast<float>(costs.count))
-                               : std::numeric_limits<float>::infinity();
+        const float leaf = costs.count <= most_ ? area * (kLeafCost + kTriangleCost * static_cast<float>(costs.count))
+                                                : std::numeric_limits<float>::infinity();
         costs.is_leaf = leaf <= inner;
         costs.as[1] = std::min(leaf, inner);
         for (std::uint32_t i = 2; i < kWideChildren; ++i)
             costs.as[i] = node.count > 0 ? costs.as[1] : std::min(costs.as[i - 1], cheapest_split(index, i).first);
     }
 
+    /// Fills a node, which is there, and appends those below it.
+    void make_below(std::uint32_t root, std::uint32_t narrow_root) {
+        std::vector<std::pair<std::uint32_t, std::uint32_t>> tasks{{root, narrow_root}};
+        while (!tasks.empty()) {
+            const auto [wide, narrow] = tasks.back();
+            tasks.pop_back();
+            children_.clear();
+            if (costs_[narrow].is_leaf)
+                children_.push_back(narrow);
+            else
+                split(narrow, kWideChildren);
+            fill(wide, tasks);
+        }
+    }
+
     /// Appends the roots of the cheapest cut of a subtree into at most `most` children, from left to right.
     void split(std::uint32_t node, std::uint32_t most) {
         const auto [cost, left] = cheapest_split(node, most);
-        const std::uint32_t child = bvh_.nodes[node].first;
+        const std::uint32_t child = narrow_[node].first;
         append(child, left);
         append(child + 1, most - left);
     }
@@ -104,7 +107,7 @@ private:
         node.child_bits = (1u << count) - 1u;
         const std::size_t waiting = tasks.size();
         for (std::uint32_t i = 0; i < count; ++i) {
-            const BvhNode& child = bvh_.nodes[children_[i]];
+            const BvhNode& child = narrow_[children_[i]];
             for (int axis = 0; axis < 3; ++axis) {
                 node.planes[axis][0][i] = child.low[axis];
                 node.planes[axis][1][i] = child.high[axis];
@@ -123,7 +126,8 @@ private:
         nodes_[wide] = node;
     }
 
-    const BvhView& bvh_;
+    Span<const BvhNode> narrow_;
+    std::uint32_t most_;  ///< triangles of a leaf
     std::vector<SubtreeCosts> costs_;
     std::vector<WideNode> nodes_;
     std::vector<std::uint32_t> children_;  ///< of the node that is being filled, in the two-wide hierarchy
@@ -131,6 +135,15 @@ private:
 
 }  // namespace
 
-std::vector<WideNode> make_wide_nodes(const BvhView& bvh) { return Widener(bvh).make(); }
+std::vector<WideNode> make_wide_nodes(const BvhView& bvh) {
+    constexpr std::uint32_t kRoot = 0;
+    if (bvh.nodes.empty()) return {};
+    return make_wide_nodes(bvh.nodes, {&kRoot, 1});
+}
+
+std::vector<WideNode> make_wide_nodes(Span<const BvhNode> narrow, std::span<const std::uint32_t> roots,
+                                      std::uint32_t most) {
+    return Widener(narrow, most).make(roots);
+}
 
 }  // namespace pl

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/kernel/geometry/bvh_view.h"
@@ -35,5 +36,10 @@ inline constexpr std::uint32_t kWideStack = (kWideChildren - 1) * kMaxBvhDepth;
 /// The nodes, root first, made from a two-wide hierarchy by the cut of it that costs least. Deterministic.
 /// [Ylitie, Karras, Laine 2017, "Efficient Incoherent Ray Traversal on GPUs Through Compressed Wide BVHs"]
 std::vector<WideNode> make_wide_nodes(const BvhView& bvh);
+
+/// The same from any number of hierarchies in one array, the roots of all first, in the order of `roots`: nodes of `narrow`, whose
+/// children have higher numbers. `most`: entries of a leaf, at most kWideChildren.
+std::vector<WideNode> make_wide_nodes(Span<const BvhNode> narrow, std::span<const std::uint32_t> roots,
+                                      std::uint32_t most = kWideChildren);
 
 }  // namespace pl

@@ -6,69 +6,43 @@
 #include <type_traits>
 
 #include "cpu/leaf_lanes.h"
+#include "cpu/node_walk.h"
 
 namespace pl {
 namespace {
 
-/// A child to be visited and the distance at which the ray enters it, as one number: sorted by distance.
-using EnteredChild = std::uint64_t;
-constexpr EnteredChild kNoChild = ~EnteredChild{0};
-
-PL_INLINE EnteredChild entered_child(float entry, WideReference child) {
-    return (EnteredChild{std::bit_cast<std::uint32_t>(entry)} << 32) | child.bits;
-}
-PL_INLINE float entry_of(EnteredChild child) { return std::bit_cast<float>(static_cast<std::uint32_t>(child >> 32)); }
-PL_INLINE WideReference reference_of(EnteredChild child) { return {static_cast<std::uint32_t>(child)}; }
-
-/// One ray's way through the hierarchy, nearer children first; those beyond the closest hit are culled.
+/// One ray's way through the hierarchy.
 template <bool kAny>
 class WideTraversal {
 public:
     /// Starts at the root; `lane` is the ray's in its groups. `stack` has room for kWideStack children.
     PL_INLINE void start(const RayGroup& rays, const PreparedGroup& group, std::uint32_t lane, EnteredChild* stack) {
-        group_ = &group;
-        lane_ = lane;
-        source_ = rays.source[lane];
-        target_ = rays.target[lane];
+        ray_ = {&group, lane};
+        excluded_ = {rays.source[lane], rays.target[lane]};
         best_.t = rays.t_max[lane];
         best_.primitive = kNoPrimitive;
         best_.b1 = best_.b2 = 0.0f;
-        top_ = bottom_ = stack;
-        next_ = ((group.can_hit >> lane) & 1u) != 0 ? 0 : kNoChild;
+        walk_.start(0, stack);
+        if (((group.can_hit >> lane) & 1u) == 0) walk_.stop();
     }
 
-    PL_INLINE bool is_over() const { return next_ == kNoChild; }
-    PL_INLINE bool is_at_leaf() const { return reference_of(next_).count() > 0; }
+    PL_INLINE bool is_over() const { return walk_.is_over(); }
+    PL_INLINE bool is_at_leaf() const { return walk_.is_at_leaf(); }
     PL_INLINE const Hit& best() const { return best_; }
 
-    /// Goes on from an inner node to the nearest child that the ray enters; the others wait.
-    PL_INLINE void descend(const WideView& scene) {
-        const WideNode& node = scene.nodes[reference_of(next_).first()];
-        alignas(32) float entries[kWideChildren];
-        std::uint32_t entered = test_boxes(node, entries) & node.child_bits;
-        const auto take = [&] {
-            const auto i = static_cast<std::uint32_t>(std::countr_zero(entered));
-            entered &= entered - 1;
-            return entered_child(entries[i], node.children[i]);
-        };
-        if (entered == 0) {
-            next_ = pop();
-            return;
-        }
-        next_ = take();
-        EnteredChild* const first = top_;
-        while (entered != 0) push(take(), first);
-    }
-
+    PL_INLINE void descend(const WideView& scene) { walk_.descend(scene.nodes, ray_, best_.t); }
     PL_INLINE void test_leaf(const WideView& scene) {
-        const LeafTest<kAny> test(*group_, lane_);
-        next_ = test.find(scene.triangles, reference_of(next_), source_, target_, best_) ? kNoChild : pop();
+        const LeafTest<kAny> test(*ray_.group, ray_.lane);
+        if (test.find(scene.triangles, walk_.at(), excluded_, best_))
+            walk_.stop();
+        else
+            walk_.leave(best_.t);
     }
 
     /// Asks for the memory that the next step reads.
     PL_INLINE void prefetch(const WideView& scene) const {
         if (is_over()) return;
-        const WideReference next = reference_of(next_);
+        const WideReference next = walk_.at();
         const bool is_leaf = next.count() > 0;
         const char* memory = is_leaf ? reinterpret_cast<const char*>(scene.triangles + next.first())
                                      : reinterpret_cast<const char*>(scene.nodes + next.first());
@@ -78,49 +52,10 @@ public:
     }
 
 private:
-    /// intersect_box() of all children: a bit for each that the ray enters, and the distances at which it does.
-    PL_INLINE std::uint32_t test_boxes(const WideNode& node, float* entries) const {
-        std::uint32_t entered = 0;
-        for (std::uint32_t first = 0; first < kWideChildren; first += kTestWidth) {
-            TestFloat entry{};
-            TestFloat exit = broadcast_to<TestFloat>(best_.t);
-            for (int axis = 0; axis < 3; ++axis) {
-                const auto inverse = broadcast_to<TestFloat>(group_->inverse_direction[axis][lane_]);
-                const std::uint32_t side = group_->near_side[axis][lane_];
-                const auto near = load_lanes<TestFloat>(node.planes[axis][side] + first);
-                const auto far = load_lanes<TestFloat>(node.planes[axis][side ^ 1] + first);
-                entry = larger(near * inverse + broadcast_to<TestFloat>(group_->at[axis][0][lane_]), entry);
-                exit = smaller(far * inverse + broadcast_to<TestFloat>(group_->at[axis][1][lane_]), exit);
-            }
-            store_lanes(entry, entries + first);
-            entered |= mask_bits(entry <= exit) << first;
-        }
-        return entered;
-    }
-
-    /// Keeps the nearest child as the next one, and those from `first` on sorted, the nearest on top.
-    PL_INLINE void push(EnteredChild child, const EnteredChild* first) {
-        const EnteredChild farther = max_of(child, next_);
-        next_ = min_of(child, next_);
-        EnteredChild* place = top_++;
-        for (; place != first && place[-1] < farther; --place) *place = place[-1];
-        *place = farther;
-    }
-    PL_INLINE EnteredChild pop() {
-        while (top_ != bottom_) {
-            const EnteredChild child = *--top_;
-            if (!(entry_of(child) > best_.t)) return child;
-        }
-        return kNoChild;
-    }
-
-    const PreparedGroup* group_;
-    std::uint32_t lane_;
-    std::uint32_t source_, target_;
+    GroupRay ray_;
+    ExcludedPair excluded_;
     Hit best_;
-    EnteredChild next_;
-    EnteredChild* top_;
-    EnteredChild* bottom_;
+    NodeWalk walk_;
 };
 
 /// Traces rays one after the other: the fastest way as long as the hierarchy stays in the caches, because branches are

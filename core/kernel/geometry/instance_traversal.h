@@ -12,14 +12,20 @@ PL_HD inline Ray ray_in_mesh(const Instance& instance, const Ray& ray) {
     return {.origin = instance.to_mesh.point(ray.origin), .direction = instance.to_mesh.vector(ray.direction)};
 }
 
-/// The ray for the boxes of a mesh, with the slack of box_slack() and the error of the transformation, see Instance::error.
+/// box_slack() of a ray in the space of a mesh, and the error of the transformation, see Instance::error. `from`: the largest component
+/// of the ray's origin in the scene.
+PL_INLINE float mesh_box_slack(const Instance& instance, float reach, float origin, float from) {
+    return box_slack(reach, origin) + instance.error + instance.error_per_distance * from;
+}
+
+/// The ray for the boxes of a mesh.
 PL_HD inline BoxRay make_mesh_box_ray(const Instance& instance, const BvhNode& root, const Ray& ray,
                                       const Ray& in_mesh) {
     const float reach =
         max_component(glm::max(absolute(root.low - in_mesh.origin), absolute(root.high - in_mesh.origin)));
     const float origin = max_component(absolute(in_mesh.origin));
-    const float error = instance.error + instance.error_per_distance * max_component(absolute(ray.origin));
-    return make_box_ray(in_mesh, reach + origin, box_slack(reach, origin) + error);
+    return make_box_ray(in_mesh, reach + origin,
+                        mesh_box_slack(instance, reach, origin, max_component(absolute(ray.origin))));
 }
 
 /// Tests the triangles of one instance that the ray may meet: `test(p0, p1, p2, primitive, best)` updates the closest hit and returns

@@ -8,16 +8,21 @@
 
 namespace pl {
 
+/// One coordinate of the image of a point, or of as many as Real has lanes.
+template <class Real>
+PL_INLINE Real affine_coordinate(const Vec4f& row, const Real& x, const Real& y, const Real& z) {
+    return row.x * x + row.y * y + row.z * z + row.w;
+}
+
 /// An affine map: coordinate i of the image of p is the sum of the products of p with x, y, z of row i, and w, rounded in this order.
 struct Affine {
     Vec4f rows[3];
 
-    PL_HD Vec3f point(Vec3f p) const {
-        return {rows[0].x * p.x + rows[0].y * p.y + rows[0].z * p.z + rows[0].w,
-                rows[1].x * p.x + rows[1].y * p.y + rows[1].z * p.z + rows[1].w,
-                rows[2].x * p.x + rows[2].y * p.y + rows[2].z * p.z + rows[2].w};
+    PL_INLINE Vec3f point(Vec3f p) const {
+        return {affine_coordinate(rows[0], p.x, p.y, p.z), affine_coordinate(rows[1], p.x, p.y, p.z),
+                affine_coordinate(rows[2], p.x, p.y, p.z)};
     }
-    PL_HD Vec3f vector(Vec3f v) const {
+    PL_INLINE Vec3f vector(Vec3f v) const {
         return {rows[0].x * v.x + rows[0].y * v.y + rows[0].z * v.z,
                 rows[1].x * v.x + rows[1].y * v.y + rows[1].z * v.z,
                 rows[2].x * v.x + rows[2].y * v.y + rows[2].z * v.z};

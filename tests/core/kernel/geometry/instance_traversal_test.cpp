@@ -1,49 +1,23 @@
 // Rays meet instances where they meet copies of their meshes, bit by bit.
 #include "core/kernel/geometry/instance_traversal.h"
 
-#include <string_view>
-
 #include "core/kernel/geometry/intersector.h"
 #include "tests/support/catch.hpp"
 #include "tests/support/rays/brute_force.h"
 #include "tests/support/rays/hard_rays.h"
-#include "tests/support/scenes/instanced_meshes.h"
+#include "tests/support/scenes/instanced_shapes.h"
 
 using namespace pl;
 using test::Uniforms;
 
 namespace {
 
-struct Placing {
-    const char* name;
-    float spread;
-    float scale;
-};
-
-/// A floor, and instances of a shape and of a ball.
-SceneDescription scene_of(const test::NamedShape& shape, const Placing& placing, Uniforms& random) {
-    SceneDescription scene;
-    scene.materials.push_back(test::gray());
-    test::add_box(scene, Vec3f{-placing.spread}, Vec3f{placing.spread}, true);
-    for (const bool is_ball : {false, true}) {
-        const std::size_t first = scene.triangles.size();
-        if (is_ball)
-            test::add_spiky_sphere(scene, 6, 6, 0.7f, 1.0f, 5);
-        else
-            shape.build(scene, random);
-        test::make_mesh(scene, first);
-    }
-    test::add_instances(scene, random, 12, placing.spread, placing.scale);
-    return scene;
-}
-
 /// Rays towards hard points of the copies.
 void check_against_copies(int rays) {
     for (const test::NamedShape& shape : test::hard_shapes())
-        for (const Placing& placing : {Placing{"near", 1.5f, 1.0f}, Placing{"far and large", 3000.0f, 200.0f},
-                                       Placing{"far and small", 500.0f, 1e-2f}}) {
+        for (const test::Placing& placing : test::kPlacings) {
             Uniforms random(23);
-            const SceneDescription description = scene_of(shape, placing, random);
+            const SceneDescription description = test::instanced_shape(shape, placing, random);
             const HostScene instanced = pack_scene(description);
             const HostScene copied = pack_scene(test::with_copies(description));
             const BvhIntersector by_instances{instanced.view()};
@@ -79,7 +53,7 @@ TEST_CASE("Instances are hit as copies of their meshes are, to the bit, by 2e5 r
 TEST_CASE("The bounds of an instance hold the corners of its triangles in both spaces") {
     Uniforms random(7);
     const SceneDescription description =
-        scene_of(test::hard_shapes().front(), {"far and large", 3000.0f, 200.0f}, random);
+        test::instanced_shape(test::hard_shapes().front(), test::kPlacings[1], random);
     const HostScene packed = pack_scene(description);
     for (std::size_t i = 0; i < packed.instances.size(); ++i) {
         const Instance& instance = packed.instances[i];
@@ -99,7 +73,8 @@ TEST_CASE("The bounds of an instance hold the corners of its triangles in both s
 
 TEST_CASE("A ray of no direction or with a NaN meets no instance") {
     Uniforms random(3);
-    const HostScene packed = pack_scene(scene_of(test::hard_shapes().front(), {"near", 1.5f, 1.0f}, random));
+    const HostScene packed =
+        pack_scene(test::instanced_shape(test::hard_shapes().front(), test::kPlacings[0], random));
     const BvhIntersector intersector{packed.view()};
     CHECK_FALSE(intersector.closest_hit({.origin = Vec3f{0.0f}, .direction = Vec3f{0.0f}}).found());
     CHECK_FALSE(intersector.closest_hit({.origin = Vec3f{kNan}, .direction = Vec3f{0.0f, 0.0f, 1.0f}}).found());
