@@ -8,8 +8,8 @@ namespace {
 std::vector<LaneKernels> find_usable_kernels() {
     std::vector<LaneKernels> usable{kLaneKernelsBaseline};
 #ifdef PL_LANE_CLONES
-    if (__builtin_cpu_supports("avx2")) usable.push_back(kLaneKernelsAvx2);
-    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
+    if (PL_WIDEST_LANES >= 1 && __builtin_cpu_supports("avx2")) usable.push_back(kLaneKernelsAvx2);
+    if (PL_WIDEST_LANES >= 2 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
         __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512dq"))
         usable.push_back(kLaneKernelsAvx512);
 #endif
