@@ -9,6 +9,7 @@
 #include "core/io/gltf/placements.h"
 #include "core/io/kept_meshes.h"
 #include "core/io/triangle_area.h"
+#include "core/scene/instances.h"
 
 namespace pl {
 namespace {
