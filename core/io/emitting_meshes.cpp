@@ -16,13 +16,6 @@ namespace {
 
 using TriangleList = std::vector<TriangleDescription>;
 
-bool emits(const SceneDescription& scene, const MeshDescription& mesh) {
-    for (std::uint32_t i = 0; i < mesh.triangle_count; ++i)
-        if (scene.materials[scene.triangles[mesh.first_triangle + i].material].emission != glm::vec3(0.0f))
-            return true;
-    return false;
-}
-
 /// Meshes and instances of a scene in two parts: those that emit, and the others.
 struct Part {
     TriangleList triangles{};
@@ -43,7 +36,7 @@ std::array<Part, 2> parts_of(const SceneDescription& scene) {
     std::array<Part, 2> parts;
     std::vector<std::pair<std::size_t, std::uint32_t>> places;  // [mesh]: its part and its number there
     for (const MeshDescription& mesh : scene.meshes) {
-        const std::size_t part = emits(scene, mesh) ? 1 : 0;
+        const std::size_t part = emitting_material(scene, mesh) ? 1 : 0;
         places.emplace_back(part, parts[part].add(scene.triangles, mesh));
     }
     for (const InstanceDescription& instance : scene.instances) {
@@ -84,7 +77,7 @@ void append_copies(const SceneDescription& copies, SceneDescription& scene) {
 
 void copy_emitting_meshes(SceneDescription& scene) {
     if (std::none_of(scene.meshes.begin(), scene.meshes.end(),
-                     [&](const MeshDescription& mesh) { return emits(scene, mesh); }))
+                     [&](const MeshDescription& mesh) { return emitting_material(scene, mesh).has_value(); }))
         return;
     auto [kept, emitting] = parts_of(scene);
     std::uint64_t copied = scene.triangles.size();

@@ -17,8 +17,6 @@ namespace pl {
 /// Most triangles and vertices that a glTF or Mitsuba file makes the program store: those of meshes and of copies.
 inline constexpr std::uint64_t kMostStoredTriangles = std::uint64_t{1} << 26;
 inline constexpr std::uint64_t kMostStoredVertices = std::uint64_t{1} << 27;
-/// Most triangles with those of every instance: primitives are numbered in 32 bits.
-inline constexpr std::uint64_t kMostShownTriangles = 0xfffffffe;
 /// Most places of meshes in a file.
 inline constexpr std::uint64_t kMostInstances = std::uint64_t{1} << 26;
 

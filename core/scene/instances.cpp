@@ -7,12 +7,10 @@
 
 #include "core/kernel/scene/instances.h"
 #include "core/scene/affine.h"
+#include "core/scene/normals.h"
 
 namespace pl {
 namespace {
-
-/// Primitives are numbered in 32 bits, of which the last is kNoPrimitive.
-constexpr std::uint64_t kMostPrimitives = kNoPrimitive;
 
 /// Numbers of copies, of those that the current instance has made.
 class CopiedNumbers {
@@ -75,13 +73,9 @@ private:
     std::uint32_t normal(std::uint32_t number) {
         return normals_.of(number, [&] {
             const glm::vec3& n = from_.normals[number];
-            to_.normals.push_back(is_placed_ ? unit_or_zero(to_mesh_.transposed(n)) : n);
+            to_.normals.push_back(is_placed_ ? unit_or_zero(glm::dvec3(to_mesh_.transposed(n))) : n);
             return static_cast<std::uint32_t>(to_.normals.size() - 1);
         });
-    }
-    static glm::vec3 unit_or_zero(const glm::vec3& n) {
-        const double length = glm::length(glm::dvec3(n));
-        return length > 0.0 ? glm::vec3(glm::dvec3(n) / length) : glm::vec3(0.0f);
     }
 
     const SceneDescription& from_;
@@ -106,12 +100,9 @@ std::string complaint_about_meshes(const SceneDescription& scene) {
 
 std::string complaint_about_emission(const SceneDescription& scene) {
     for (const MeshDescription& mesh : scene.meshes)
-        for (std::uint32_t i = 0; i < mesh.triangle_count; ++i) {
-            const std::uint32_t material = scene.triangles[mesh.first_triangle + i].material;
-            if (material < scene.materials.size() && scene.materials[material].emission != glm::vec3(0.0f))
-                return fmt::format("\n  mesh '{}': its material '{}' emits light; expected none of instances",
-                                   mesh.name, scene.materials[material].name);
-        }
+        if (const auto material = emitting_material(scene, mesh))
+            return fmt::format("\n  mesh '{}': its material '{}' emits light; expected none of instances", mesh.name,
+                               scene.materials[*material].name);
     return {};
 }
 
@@ -147,6 +138,15 @@ bool is_of_mesh(const SceneDescription& scene, std::uint32_t material) {
     return false;
 }
 
+std::optional<std::uint32_t> emitting_material(const SceneDescription& scene, const MeshDescription& mesh) {
+    for (std::uint32_t i = 0; i < mesh.triangle_count; ++i) {
+        const std::uint32_t material = scene.triangles[mesh.first_triangle + i].material;
+        if (material < scene.materials.size() && scene.materials[material].emission != glm::vec3(0.0f))
+            return material;
+    }
+    return std::nullopt;
+}
+
 void expand_instances(SceneDescription& scene) {
     if (scene.meshes.empty()) return;
     SceneDescription copied;
@@ -174,9 +174,9 @@ std::string complaints_about_instances(const SceneDescription& scene) {
     }
     list += first;
     if (bad > 1) list += fmt::format(" ({} such)", bad);
-    if (bad == 0 && shown_triangles(scene) >= kMostPrimitives)
-        list += fmt::format("\n  expected fewer than {} triangles with those of all instances, got {}",
-                            kMostPrimitives, shown_triangles(scene));
+    if (bad == 0 && shown_triangles(scene) > kMostShownTriangles)
+        list += fmt::format("\n  expected at most {} triangles with those of all instances, got {}",
+                            kMostShownTriangles, shown_triangles(scene));
     return list;
 }
 

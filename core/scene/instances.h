@@ -2,11 +2,16 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
+#include "core/kernel/geometry/ray.h"
 #include "core/scene/description.h"
 
 namespace pl {
+
+/// Most triangles with those of every instance: primitives are numbered in 32 bits, of which the last is kNoPrimitive.
+inline constexpr std::uint64_t kMostShownTriangles = std::uint64_t{kNoPrimitive} - 1;
 
 /// Number of the triangles that are in the scene directly: the first ones of SceneDescription::triangles.
 std::uint32_t direct_triangles(const SceneDescription& scene);
@@ -16,6 +21,9 @@ std::uint64_t shown_triangles(const SceneDescription& scene);
 
 /// Whether a material is on a mesh.
 bool is_of_mesh(const SceneDescription& scene, std::uint32_t material);
+
+/// The first material of a mesh that emits light, of those that are in range, or nothing.
+std::optional<std::uint32_t> emitting_material(const SceneDescription& scene, const MeshDescription& mesh);
 
 /// Replaces instances by copies of their meshes, in their order behind the direct triangles: corners and normals are those that
 /// kernels compute, and primitives keep their numbers.

@@ -12,6 +12,7 @@
 #include "core/scene/directional_albedo.h"
 #include "core/scene/instance_boxes.h"
 #include "core/scene/instances.h"
+#include "core/scene/normals.h"
 #include "core/scene/pack_far_lights.h"
 #include "core/scene/pack_instances.h"
 #include "core/scene/pack_light_tree.h"
@@ -24,12 +25,6 @@ namespace {
 bool has_normals(const TriangleDescription& t) {
     return t.normal.x != TriangleDescription::kNoNormal && t.normal.y != TriangleDescription::kNoNormal &&
            t.normal.z != TriangleDescription::kNoNormal;
-}
-
-/// Normalizes; a vector of length 0 stays 0 and does not affect interpolation.
-Vec3f unit_or_zero(Vec3d v) {
-    const double length = glm::length(v);
-    return length > 0.0 ? Vec3f{v / length} : Vec3f{0.0f};
 }
 
 void pack_triangles(const SceneDescription& scene, HostScene& packed) {

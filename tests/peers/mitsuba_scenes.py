@@ -51,11 +51,17 @@ def scene(content, eye=(0, 1, 3.6), target=(0, 1, 0), fov=40):
 """
 
 
-def room():
-    """2 x 2 x 2 meters, open towards the camera, with a lamp of 0.5 x 0.5 below its ceiling."""
-    lamp = ('<shape type="rectangle"><transform name="to_world">' + scaled(0.25, 0.25, 1) + turned("x", 90) +
-            moved(0, 1.98, 0) + '</transform>' + diffuse("0, 0, 0") +
+def emitting(kind, place):
+    return (f'<shape type="{kind}"><transform name="to_world">{place}</transform>' + diffuse("0, 0, 0") +
             '<emitter type="area"><rgb name="radiance" value="17, 12, 4"/></emitter></shape>')
+
+
+def ball(surface, center, radius):
+    return shape("sphere", scaled(*(radius,) * 3) + moved(*center), surface)
+
+
+def room(lamp=emitting("rectangle", scaled(0.25, 0.25, 1) + turned("x", 90) + moved(0, 1.98, 0))):
+    """2 x 2 x 2 meters, open towards the camera, with a lamp, by default of 0.5 x 0.5 below its ceiling."""
     return "\n".join((shape("rectangle", turned("x", -90), diffuse(WHITE)),
                       shape("rectangle", turned("x", 90) + moved(0, 2, 0), diffuse(WHITE)),
                       shape("rectangle", moved(0, 1, -1), diffuse(WHITE)),
@@ -82,6 +88,19 @@ def sky(color="0.5, 0.65, 0.9"):
 def in_room(tall, short):
     return scene(room() + box(tall, (-0.35, 0.59, -0.3), (0.3, 0.6, 0.3), 18) +
                  box(short, (0.35, 0.29, 0.3), (0.3, 0.3, 0.3), -17))
+
+
+def round_lights():
+    """A room with an emitting sphere of 0.3 meters that is seen, and an emitting disk."""
+    lamps = (emitting("sphere", scaled(0.15, 0.15, 0.15) + moved(0.3, 1.4, -0.2)) +
+             emitting("disk", scaled(0.2, 0.2, 1) + turned("x", 90) + moved(-0.4, 1.98, 0)))
+    return scene(room(lamps) + ball(diffuse(WHITE), (-0.35, 0.45, -0.3), 0.44) +
+                 box(diffuse(WHITE), (0.35, 0.29, 0.3), (0.3, 0.3, 0.3), -17))
+
+
+def balls_outside(left, right):
+    content = ground(diffuse(WHITE)) + sky() + ball(left, (-0.6, 0.62, -0.3), 0.6) + ball(right, (0.55, 0.42, 0.3), 0.4)
+    return scene(content, eye=(0.4, 1.7, 3.4), target=(0, 0.5, 0))
 
 
 def cropped_room(tall, short):
@@ -229,9 +248,7 @@ def normal_mapped(folder, inside):
     bumpy = ('<bsdf type="normalmap"><texture type="bitmap" name="normalmap"><boolean name="raw" value="true"/>'
              '<string name="filename" value="relief.png"/></texture><boolean name="use_shadowing_function" value="false"/>'
              f'<boolean name="flip_invalid_normals" value="false"/>{inside}</bsdf>')
-    sun = ('<shape type="rectangle"><transform name="to_world">' + scaled(0.5, 0.5, 1) + turned("x", 90) + turned("z", -40) +
-           moved(-2, 3, 1) + '</transform>' + diffuse("0, 0, 0") +
-           '<emitter type="area"><rgb name="radiance" value="17, 12, 4"/></emitter></shape>')
+    sun = emitting("rectangle", scaled(0.5, 0.5, 1) + turned("x", 90) + turned("z", -40) + moved(-2, 3, 1))
     content = (f'<shape type="obj"><string name="filename" value="ground.obj"/><bsdf type="twosided">{bumpy}</bsdf></shape>' +
                sky("0.1, 0.15, 0.2") + sun + box(bumpy, (-0.55, 0.29, -0.4), (0.35, 0.3, 0.35), 25) +
                shape("rectangle", scaled(0.4, 0.4, 1) + turned("y", -20) + moved(0.5, 0.45, 0.3), bumpy))
@@ -266,9 +283,7 @@ def bump_mapped(folder, inside):
         return (f'<bsdf type="bumpmap"><float name="scale" value="{scale}"/><texture type="bitmap" name="bump"><boolean '
                 'name="raw" value="true"/><string name="filename" value="heights.png"/></texture>' + inside + '</bsdf>')
 
-    sun = ('<shape type="rectangle"><transform name="to_world">' + scaled(0.5, 0.5, 1) + turned("x", 90) + turned("z", -40) +
-           moved(-2, 3, 1) + '</transform>' + diffuse("0, 0, 0") +
-           '<emitter type="area"><rgb name="radiance" value="17, 12, 4"/></emitter></shape>')
+    sun = emitting("rectangle", scaled(0.5, 0.5, 1) + turned("x", 90) + turned("z", -40) + moved(-2, 3, 1))
     content = (f'<shape type="obj"><string name="filename" value="ground.obj"/><bsdf type="twosided">{bumpy(0.06)}</bsdf></shape>' +
                sky("0.1, 0.15, 0.2") + sun +
                shape("rectangle", scaled(0.6, 0.4, 1) + turned("y", -20) + moved(0.3, 0.5, 0.3), bumpy(0.03)))

@@ -51,8 +51,7 @@ SceneDescription load_gltf(const std::filesystem::path& path, MeshGroups* groups
     SceneDescription scene;
     scene.source = path;
     const GltfNodes nodes = read_nodes(file);
-    const std::vector<GltfSurface> surfaces = read_surfaces(file, scene);
-    add_gltf_triangles(file, nodes, surfaces, scene, groups, most_copied_triangles);
+    add_gltf_triangles(file, nodes, read_surfaces(file, scene), scene, groups, most_copied_triangles);
     if (scene.triangles.empty()) fail_empty(file);
     add_gltf_cameras(file, nodes, scene);
     add_gltf_lights(file, nodes, scene);

@@ -48,14 +48,14 @@ const std::vector<GltfPrimitive>& GltfMeshes::mesh(std::uint32_t number) {
 
 GltfPrimitive GltfMeshes::read(const std::string& at) {
     GltfPrimitive primitive{.at = at};
-    const auto standard = static_cast<std::uint32_t>(surfaces_.size() - 1);
-    primitive.surface = file_.index(at + "/material", "materials").value_or(standard);
+    primitive.surface = file_.index(at + "/material", "materials").value_or(standard_);
     if (surfaces_[primitive.surface].is_hidden) return primitive;
     if (file_.whole(at + "/mode", 4, 0, kLastMode) < static_cast<std::uint64_t>(Mode::Triangles)) {
         file_.note("points and lines are left out", at);
         return primitive;
     }
     read_attributes(primitive);
+    if (surfaces_[primitive.surface].is_hidden) return {.at = at, .surface = primitive.surface};
     if (!primitive.positions.empty()) read_triangles(primitive);
     return primitive;
 }
@@ -113,15 +113,18 @@ void GltfMeshes::read_colors(GltfPrimitive& primitive) {
     const std::vector<float> values = read_floats(file_, *accessor, has_alpha ? "VEC4" : "VEC3");
     const std::size_t channels = has_alpha ? 4 : 3;
     bool is_white = true;
+    OpacityRange opacities{.least = 1.0f, .most = 0.0f};
     for (std::size_t i = 0; i + channels <= values.size(); i += channels) {
         const glm::vec3 color(values[i], values[i + 1], values[i + 2]);
         const glm::vec3 inside = glm::clamp(color, glm::vec3(0.0f), glm::vec3(1.0f));
         if (inside != color) file_.note("colors of vertices outside of [0, 1] are moved into it", at);
-        if (has_alpha && values[i + 3] != 1.0f) file_.note("opacities of vertices are left out", at);
+        const float opacity = has_alpha ? std::clamp(values[i + 3], 0.0f, 1.0f) : 1.0f;
+        opacities = {.least = std::min(opacities.least, opacity), .most = std::max(opacities.most, opacity)};
         is_white = is_white && inside == glm::vec3(1.0f);
         primitive.colors.push_back(inside);
     }
     if (is_white) primitive.colors.clear();
+    primitive.surface = opacities_.surface_with(primitive.surface, opacities, at);
 }
 
 void GltfMeshes::read_uvs(GltfPrimitive& primitive, std::size_t vertices) {

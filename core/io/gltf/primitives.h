@@ -11,6 +11,7 @@
 
 #include "core/io/gltf/gltf_file.h"
 #include "core/io/gltf/surfaces.h"
+#include "core/io/gltf/vertex_opacity.h"
 
 namespace pl {
 
@@ -29,7 +30,11 @@ struct GltfPrimitive {
 /// Reads each mesh once.
 class GltfMeshes {
 public:
-    GltfMeshes(GltfFile& file, const std::vector<GltfSurface>& surfaces) : file_(file), surfaces_(surfaces) {}
+    /// `surfaces`, and materials of the scene, get those that opacities of vertices need; their last one is that of primitives without a
+    /// material.
+    GltfMeshes(GltfFile& file, std::vector<GltfSurface>& surfaces, SceneDescription& scene)
+        : file_(file), surfaces_(surfaces), standard_(static_cast<std::uint32_t>(surfaces.size() - 1)),
+          opacities_(file, surfaces, scene) {}
 
     /// Valid as long as this object.
     const std::vector<GltfPrimitive>& mesh(std::uint32_t number);
@@ -48,6 +53,8 @@ private:
 
     GltfFile& file_;
     const std::vector<GltfSurface>& surfaces_;
+    std::uint32_t standard_;
+    VertexOpacities opacities_;
     std::map<std::uint32_t, std::vector<GltfPrimitive>> known_;
     std::uint64_t elements_ = 0;
 };

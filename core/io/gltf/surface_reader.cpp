@@ -239,17 +239,23 @@ private:
         material_.opacity_rule = OpacityRule::Blend;
         material_.textures.opacity = material_.textures.albedo;
         surface_.is_hidden = alpha_ == 0.0f;
+        surface_.vertex_alpha = VertexAlpha::Scales;
     }
 
     void read_mask() {
         const float cutoff = number(at_ + "/alphaCutoff", kGltfHalf, 0.0f, 1.0f);
         const bool has_holes = cutoff > 0.0f && json_.has(base_at_);
         // Holes are where the texture's alpha is below one half.
-        material_.textures.albedo = images_.color(base_at_, has_holes ? alpha_ * kGltfHalf / cutoff : 1.0f);
-        if (has_holes)
+        const float scale = has_holes ? alpha_ * kGltfHalf / cutoff : 1.0f;
+        material_.textures.albedo = images_.color(base_at_, scale);
+        if (has_holes) {
             material_.textures.opacity = material_.textures.albedo;
-        else
-            surface_.is_hidden = alpha_ < cutoff;
+            surface_.vertex_alpha = scale > 1.0f ? VertexAlpha::LeftOut : VertexAlpha::Scales;
+            return;
+        }
+        surface_.is_hidden = alpha_ < cutoff;
+        surface_.vertex_alpha = VertexAlpha::Cut;
+        surface_.least_alpha = cutoff > 0.0f ? cutoff / alpha_ : 0.0f;
     }
 
     void read_normals() {

@@ -1,6 +1,7 @@
 #include "core/io/gltf/triangles.h"
 
 #include <limits>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -9,6 +10,7 @@
 #include "core/io/gltf/placements.h"
 #include "core/io/kept_meshes.h"
 #include "core/io/triangle_area.h"
+#include "core/scene/instances.h"
 
 namespace pl {
 namespace {
@@ -38,9 +40,9 @@ std::vector<glm::dmat4> joint_transforms(GltfFile& file, const GltfNodes& nodes,
 
 class TriangleAdder {
 public:
-    TriangleAdder(GltfFile& file, const GltfNodes& nodes, const std::vector<GltfSurface>& surfaces,
-                  SceneDescription& scene, std::uint64_t most_copied_triangles)
-        : file_(file), nodes_(nodes), surfaces_(surfaces), scene_(scene), meshes_(file, surfaces),
+    TriangleAdder(GltfFile& file, const GltfNodes& nodes, std::vector<GltfSurface> surfaces, SceneDescription& scene,
+                  std::uint64_t most_copied_triangles)
+        : file_(file), nodes_(nodes), surfaces_(std::move(surfaces)), scene_(scene), meshes_(file, surfaces_, scene),
           kept_(most_copied_triangles) {}
 
     void run(MeshGroups* groups) {
@@ -150,7 +152,7 @@ private:
 
     GltfFile& file_;
     const GltfNodes& nodes_;
-    const std::vector<GltfSurface>& surfaces_;
+    std::vector<GltfSurface> surfaces_;
     SceneDescription& scene_;
     GltfMeshes meshes_;
     KeptMeshes kept_;
@@ -160,11 +162,11 @@ private:
 
 }  // namespace
 
-void add_gltf_triangles(GltfFile& file, const GltfNodes& nodes, const std::vector<GltfSurface>& surfaces,
+void add_gltf_triangles(GltfFile& file, const GltfNodes& nodes, std::vector<GltfSurface> surfaces,
                         SceneDescription& scene, MeshGroups* groups, std::uint64_t most_copied_triangles) {
     // A knob that moves a group would move every instance of its mesh.
     const std::uint64_t most = groups == nullptr ? most_copied_triangles : std::numeric_limits<std::uint64_t>::max();
-    TriangleAdder(file, nodes, surfaces, scene, most).run(groups);
+    TriangleAdder(file, nodes, std::move(surfaces), scene, most).run(groups);
 }
 
 }  // namespace pl

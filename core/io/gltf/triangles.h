@@ -13,7 +13,7 @@ namespace pl {
 /// each node with a mesh; everything is copied then.
 /// Throws Error(Input): broken meshes and places, coordinates beyond kLargestCoordinate, more than kMostStoredTriangles,
 /// kMostShownTriangles or kMostInstances.
-void add_gltf_triangles(GltfFile& file, const GltfNodes& nodes, const std::vector<GltfSurface>& surfaces,
+void add_gltf_triangles(GltfFile& file, const GltfNodes& nodes, std::vector<GltfSurface> surfaces,
                         SceneDescription& scene, MeshGroups* groups, std::uint64_t most_copied_triangles);
 
 }  // namespace pl

@@ -61,12 +61,19 @@ void read_normals(const MitsubaFile& file, const MitsubaObject& adapter, SceneDe
 void read_adapter(const MitsubaFile& file, const MitsubaObject& adapter, SceneDescription& scene,
                   MitsubaAdapters& adapters) {
     const std::string type = adapter.type();
+    if (type == "twosided") return;
+    if (type == "coating" || type == "roughcoating") {
+        if (adapters.coat)
+            adapter.note("coats under coats are left out");
+        else
+            adapters.coat = adapter;
+        return;
+    }
+    if (adapters.coat) adapter.note("masks and reliefs under a coat are those of the coat, too");
     if (type == "mask")
         read_mask(file, adapter, scene, adapters);
-    else if (type == "normalmap" || type == "bumpmap")
+    else
         read_normals(file, adapter, scene, adapters);
-    else if (type != "twosided")
-        adapter.note(fmt::format("the effect of {} is left out: the surface inside of it is shown", in_quotes(type)));
 }
 
 /// The surface inside of an adapter.

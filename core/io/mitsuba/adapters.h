@@ -10,6 +10,7 @@ namespace pl {
 /// The effects of all adapters around a surface, and that surface.
 struct MitsubaAdapters {
     MitsubaObject inside{};
+    MitsubaObject coat{};                   ///< `coating` or `roughcoating`, the outermost one; or nothing
     MitsubaObject image{};                  ///< one of the textures below; or nothing
     std::uint32_t normals = kNoTexture;     ///< of `normalmap`
     std::optional<MitsubaRelief> relief{};  ///< of `bumpmap`
@@ -18,7 +19,7 @@ struct MitsubaAdapters {
     std::uint32_t opacities = kNoTexture;  ///< likewise, multiplies it
 };
 
-/// Adapters without an effect here are noted, and the surface inside of them is taken. Throws Error(Input) if there is none.
+/// Effects that are left out are noted. Throws Error(Input) if there is none.
 /// [Mitsuba 3 and 0.6, plugins]
 MitsubaAdapters read_mitsuba_adapters(const MitsubaFile& file, const MitsubaObject& bsdf, SceneDescription& scene);
 

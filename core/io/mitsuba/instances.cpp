@@ -6,6 +6,7 @@
 
 #include "core/io/append_triangles.h"
 #include "core/io/mitsuba/shapes.h"
+#include "core/scene/instances.h"
 
 namespace pl {
 namespace {

@@ -26,7 +26,7 @@ namespace {
 class MitsubaLoader {
 public:
     MitsubaLoader(const std::filesystem::path& path, std::uint64_t most_copied_triangles)
-        : file_(path), instances_(most_copied_triangles) {
+        : file_(path), instances_(most_copied_triangles), round_shapes_(count_round_shapes(file_)) {
         scene_.source = path;
     }
 
@@ -59,7 +59,7 @@ private:
             read_instance(shape);
             return;
         }
-        add_mitsuba_shape(shape, material_of(shape), scene_);
+        add_mitsuba_shape(shape, material_of(shape), round_shapes_, scene_);
     }
 
     void read_instance(const MitsubaObject& instance) {
@@ -81,7 +81,7 @@ private:
         part.source = scene_.source;
         for (const MitsubaObject& child : group.children()) {
             const MitsubaObject shape = mitsuba_target(file_, child);
-            if (shape.element() == "shape") add_mitsuba_shape(shape, material_of(shape), part);
+            if (shape.element() == "shape") add_mitsuba_shape(shape, material_of(shape), round_shapes_, part);
         }
         const auto take = [](auto& from, auto& to) {
             to.insert(to.end(), from.begin(), from.end());
@@ -154,7 +154,7 @@ private:
         scene_.materials.push_back(material);
         surfaces_.push_back(read);
         add_parts(first, read.others);
-        return {first, read.shows_vertex_colors};
+        return {first, read.shows_vertex_colors, emission.radiance != glm::vec3(0.0f)};
     }
 
     /// The materials that the last one blends with.
@@ -229,6 +229,7 @@ private:
     std::map<std::tuple<const void*, const void*, const void*, float, float, float>, ShapeMaterial> materials_;
     std::map<const void*, MitsubaGroup> groups_;
     MitsubaInstances instances_;
+    RoundShapes round_shapes_;
     std::vector<MitsubaSurface> surfaces_;  ///< [material]
 };
 

@@ -4,13 +4,14 @@
 #include <cmath>
 
 #include <fmt/format.h>
-#include <glm/gtc/constants.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "core/base/parallel_chunks.h"
 #include "core/io/append_triangles.h"
 #include "core/io/line_reader.h"
+#include "core/io/mitsuba/faces.h"
 #include "core/io/mitsuba/ply.h"
+#include "core/io/mitsuba/round_shapes.h"
 #include "core/io/mitsuba/serialized.h"
 #include "core/io/obj.h"
 #include "core/io/obj_check.h"
@@ -19,22 +20,6 @@
 
 namespace pl {
 namespace {
-
-/// Corners of all faces of a mesh by arrays of their own, as the reader of OBJ files gives them.
-void add_face(ObjMesh& mesh, std::initializer_list<ObjCorner> corners) {
-    ObjFaces& faces = mesh.parts.front();
-    faces.corners.insert(faces.corners.end(), corners);
-    faces.corner_counts.push_back(static_cast<std::uint32_t>(corners.size()));
-    faces.lines.push_back(1);
-}
-
-ObjMesh empty_mesh() {
-    ObjMesh mesh;
-    mesh.parts.emplace_back();
-    mesh.parts.front().runs.emplace_back();
-    mesh.groups.emplace_back();
-    return mesh;
-}
 
 /// The square [-1, 1]^2 that faces +z.
 ObjMesh rectangle() {
@@ -62,48 +47,6 @@ ObjMesh cube() {
                         {first + 1, ObjCorner::kNone, 1},
                         {first + 2, ObjCorner::kNone, 2},
                         {first + 3, ObjCorner::kNone, 3}});
-    }
-    return mesh;
-}
-
-/// The disk of radius 1 that faces +z.
-ObjMesh disk() {
-    constexpr std::uint32_t kSides = 64;
-    ObjMesh mesh = empty_mesh();
-    mesh.positions.emplace_back(0.0f);
-    for (std::uint32_t i = 0; i < kSides; ++i) {
-        const double angle = glm::two_pi<double>() * i / kSides;
-        mesh.positions.emplace_back(std::cos(angle), std::sin(angle), 0.0);
-        add_face(mesh, {{0}, {i + 1}, {(i + 1) % kSides + 1}});
-    }
-    return mesh;
-}
-
-/// The sphere of radius 1, with its own normals.
-ObjMesh sphere() {
-    constexpr std::uint32_t kRows = 32;
-    constexpr std::uint32_t kColumns = 64;
-    ObjMesh mesh = empty_mesh();
-    for (std::uint32_t row = 0; row <= kRows; ++row) {
-        for (std::uint32_t column = 0; column <= kColumns; ++column) {
-            const double theta = glm::pi<double>() * row / kRows;
-            const double phi = glm::two_pi<double>() * (column % kColumns) / kColumns;
-            mesh.positions.emplace_back(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi),
-                                        std::cos(theta));
-            mesh.uvs.emplace_back(static_cast<float>(column) / kColumns, static_cast<float>(row) / kRows);
-        }
-    }
-    mesh.normals = mesh.positions;
-    const auto corner = [](std::uint32_t row, std::uint32_t column) {
-        const std::uint32_t i = row * (kColumns + 1) + column;
-        return ObjCorner{i, i, i};
-    };
-    for (std::uint32_t row = 0; row < kRows; ++row) {
-        for (std::uint32_t column = 0; column < kColumns; ++column) {
-            if (row > 0) add_face(mesh, {corner(row, column), corner(row + 1, column), corner(row, column + 1)});
-            if (row + 1 < kRows)
-                add_face(mesh, {corner(row, column + 1), corner(row + 1, column), corner(row + 1, column + 1)});
-        }
     }
     return mesh;
 }
@@ -204,7 +147,8 @@ void turn_over(ObjMesh& mesh) {
 
 }  // namespace
 
-void add_mitsuba_shape(const MitsubaObject& shape, const ShapeMaterial& material, SceneDescription& scene) {
+void add_mitsuba_shape(const MitsubaObject& shape, const ShapeMaterial& material, const RoundShapes& round_shapes,
+                       SceneDescription& scene) {
     const std::string type = shape.type();
     glm::dmat4 to_world = shape.transform("to_world");
     ObjMesh mesh;
@@ -223,11 +167,11 @@ void add_mitsuba_shape(const MitsubaObject& shape, const ShapeMaterial& material
     } else if (type == "cube") {
         mesh = cube();
     } else if (type == "disk") {
-        mesh = disk();
-        shape.note("disks are meshes of 64 sides");
+        mesh = disk_mesh(round_shapes.sides(material.emits));
+        shape.note("disks are polygons of their area");
     } else if (type == "sphere") {
-        mesh = sphere();
-        shape.note("spheres are meshes of 32 x 64 faces");
+        mesh = sphere_mesh(round_shapes.sides(material.emits));
+        shape.note("spheres are fine meshes of their area");
         to_world = glm::scale(glm::translate(to_world, glm::dvec3(shape.point("center").value_or(glm::vec3(0.0f)))),
                               glm::dvec3(static_cast<double>(shape.number("radius").value_or(1.0f))));
     } else {

@@ -1,6 +1,7 @@
 // Shapes of Mitsuba as triangles.
 #pragma once
 
+#include "core/io/mitsuba/round_shapes.h"
 #include "core/io/mitsuba/xml_file.h"
 #include "core/scene/description.h"
 
@@ -10,12 +11,14 @@ namespace pl {
 struct ShapeMaterial {
     std::uint32_t index = 0;
     bool shows_vertex_colors = false;
+    bool emits = false;
 };
 
-/// Adds the triangles of a `shape` element with this material: obj, ply, serialized, rectangle, cube, disk and sphere, the last two as fine
-/// meshes; others are left out with a note. Meshes without normals are smooth unless they have `faceNormals`, as in Mitsuba.
-/// Throws Error(Input).
-void add_mitsuba_shape(const MitsubaObject& shape, const ShapeMaterial& material, SceneDescription& scene);
+/// Adds the triangles of a `shape` element with this material: obj, ply, serialized, rectangle, cube, disk and sphere, the last two as
+/// meshes as fine as their numbers in the file allow; others are left out with a note. Meshes without normals are smooth
+/// unless they have `faceNormals`, as in Mitsuba. Throws Error(Input).
+void add_mitsuba_shape(const MitsubaObject& shape, const ShapeMaterial& material, const RoundShapes& round_shapes,
+                       SceneDescription& scene);
 
 /// The triangles of a group of shapes in a place, without the group's warnings; mirrored ones keep their front.
 /// Throws Error(Input) at the `instance` element for coordinates beyond kLargestCoordinate.

@@ -11,23 +11,13 @@
 #include "core/io/line_reader.h"
 #include "core/io/mitsuba/adapters.h"
 #include "core/io/mitsuba/blends.h"
+#include "core/io/mitsuba/coats.h"
+#include "core/io/mitsuba/interfaces.h"
 #include "core/io/mtl_surface.h"
 #include "core/kernel/shading/fresnel.h"
-#include "core/scene/anisotropy.h"
 
 namespace pl {
 namespace {
-
-/// Names of indices of refraction.
-constexpr std::array<std::pair<std::string_view, float>, 9> kIndices = {{{"vacuum", 1.0f},
-                                                                         {"air", 1.000277f},
-                                                                         {"water", 1.333f},
-                                                                         {"ice", 1.31f},
-                                                                         {"bk7", 1.5046f},
-                                                                         {"polypropylene", 1.49f},
-                                                                         {"acrylic glass", 1.49f},
-                                                                         {"amber", 1.55f},
-                                                                         {"diamond", 2.419f}}};
 
 /// Complex indices of refraction of metals in red, green and blue. [Johnson and Christy 1972, 1974; Rakic 1995]
 struct MetalIndex {
@@ -49,14 +39,10 @@ Metal metal_of(const glm::vec3& eta, const glm::vec3& k) {
     Metal metal;
     for (int i = 0; i < 3; ++i) {
         metal.specular[i] = fresnel_complex(1.0f, eta[i], k[i]);
-        const float schlick = fresnel_conductor(kEdgeCosine, glm::vec3(metal.specular[i]), glm::vec3(0.0f)).x;
-        metal.edge_tint[i] = std::min(fresnel_complex(kEdgeCosine, eta[i], k[i]) / schlick, 1.0f);
+        metal.edge_tint[i] = edge_tint_of(metal.specular[i], fresnel_complex(kEdgeCosine, eta[i], k[i]));
     }
     return metal;
 }
-
-/// Share of diffuse light that a smooth interface reflects from inside. [d'Eon and Irving 2011]
-double internal_reflectance(double eta) { return -1.4399 / (eta * eta) + 0.7099 / eta + 0.6681 + 0.0636 * eta; }
 
 class SurfaceReader {
 public:
@@ -80,7 +66,7 @@ public:
             bsdf_.note(fmt::format("surfaces of the type {} are shown as gray", in_quotes(type)));
             material_.albedo = glm::vec3(0.5f);
         }
-        if (is_rough) read_roughness();
+        if (is_rough) read_mitsuba_facets(bsdf_, material_);
         return {.material = material_,
                 .others = std::move(others_),
                 .image = image_,
@@ -115,28 +101,6 @@ private:
         return within_one(0.5f * (first + texture.color("color1").value_or(glm::vec3(0.2f))));
     }
 
-    float index(const char* name, float standard) {
-        const MitsubaObject property = bsdf_.property(name);
-        if (property.element() != "string") return bsdf_.number(name).value_or(standard);
-        const std::string value = property.attribute("value");
-        for (const auto& [known, number] : kIndices)
-            if (known == value) return number;
-        property.note(
-            fmt::format("the material {} is not known: index of refraction {}", in_quotes(value), standard));
-        return standard;
-    }
-
-    /// Of the inside over the outside, within the valid range.
-    float read_ior(float standard) {
-        const float outside = index("ext_ior", 1.000277f);
-        const float ior = index("int_ior", standard) / (outside > 0.0f ? outside : 1.0f);
-        if (!(ior >= kLeastIor && ior <= kMostIor)) {
-            bsdf_.note(
-                fmt::format("an index of refraction outside of [{}, {}] is moved into it", kLeastIor, kMostIor));
-        }
-        return ior >= kLeastIor ? std::min(ior, kMostIor) : kLeastIor;
-    }
-
     void read_conductor() {
         material_.kind = SurfaceKind::Conductor;
         const Metal metal = read_metal();
@@ -161,14 +125,14 @@ private:
 
     void read_dielectric(SurfaceKind kind) {
         material_.kind = kind;
-        material_.ior = read_ior(1.5046f);
+        material_.ior = mitsuba_ior(bsdf_, 1.5046f);
         material_.specular = within_one(bsdf_.color("specular_reflectance").value_or(glm::vec3(1.0f)));
         material_.transmission = within_one(bsdf_.color("specular_transmittance").value_or(glm::vec3(1.0f)));
     }
 
     void read_plastic() {
         material_.kind = SurfaceKind::Plastic;
-        material_.ior = read_ior(1.49f);
+        material_.ior = mitsuba_ior(bsdf_, 1.49f);
         material_.specular = within_one(bsdf_.color("specular_reflectance").value_or(glm::vec3(1.0f)));
         color("diffuse_reflectance", material_.albedo, 0.5f);
         if (bsdf_.boolean("nonlinear").value_or(false)) {
@@ -204,31 +168,6 @@ private:
         bsdf_.note("principled surfaces are shown as metal, plastic, a blend of the two, or glass");
     }
 
-    /// The width of the facets, or the geometric mean of both; conductors get the anisotropy, too.
-    float read_width() {
-        const auto along_u = bsdf_.number("alpha_u");
-        if (!along_u) return bsdf_.number("alpha").value_or(0.1f);
-        const float along_v = bsdf_.number("alpha_v").value_or(*along_u);
-        const float mean = std::sqrt(std::max(*along_u * along_v, 0.0f));
-        if (*along_u == along_v) return mean;
-        if (material_.kind != SurfaceKind::Conductor) {
-            bsdf_.note("anisotropic facets of glass and coats are shown as isotropic ones");
-            return mean;
-        }
-        if (!set_widths(material_, std::max(*along_u, 0.0f), std::max(along_v, 0.0f))) bsdf_.note(kWidestFacets);
-        return material_.roughness * material_.roughness;
-    }
-
-    void read_roughness() {
-        const float alpha = read_width();
-        if (bsdf_.text("distribution").value_or("beckmann") != "ggx")
-            bsdf_.note("facets of another distribution are shown as those of GGX");
-        const float roughness = std::sqrt(std::clamp(alpha, 0.0f, 1.0f));
-        const bool is_smooth = roughness < kLeastRoughness ||
-                               (material_.kind == SurfaceKind::Dielectric && material_.ior < kLeastRoughIor);
-        material_.roughness = is_smooth ? 0.0f : roughness;
-    }
-
     const MitsubaFile& file_;
     const MitsubaObject& bsdf_;
     SceneDescription& scene_;
@@ -260,6 +199,7 @@ MitsubaSurface mitsuba_surface(const MitsubaFile& file, const MitsubaObject& bsd
     MitsubaSurface surface = mitsuba_name(adapters.inside.type()) == "blendbsdf"
                                  ? mitsuba_blend(file, adapters.inside, scene, depth)
                                  : SurfaceReader(file, adapters.inside, scene).run();
+    if (adapters.coat) add_mitsuba_coat(adapters.coat, surface);
     MaterialDescription& material = surface.material;
     if (adapters.normals != kNoTexture) {
         material.textures.normal = adapters.normals;

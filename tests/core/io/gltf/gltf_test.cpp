@@ -3,41 +3,26 @@
 
 #include <cmath>
 
-#include "core/io/load_scene.h"
 #include "tests/support/catch.hpp"
-#include "tests/support/files/gltf_maker.h"
-#include "tests/support/files/input_error.h"
-#include "tests/support/files/temporary_folder.h"
+#include "tests/support/files/load_gltf.h"
+#include "tests/support/files/told.h"
 
 using namespace pl;
 using pl::test::contains;
+using pl::test::gltf_refusal;
 using pl::test::GltfMaker;
 using pl::test::input_error;
+using pl::test::is_told;
+using pl::test::load_gltf;
 using pl::test::TemporaryFolder;
 using Json = nlohmann::json;
 
 namespace {
 
-SceneDescription load(const std::string& bytes, const LoadSettings& asked = {}) {
-    const TemporaryFolder folder;
-    return load_scene(folder.write("s.gltf", bytes).string(), "", asked);
-}
-SceneDescription load(const GltfMaker& file, const LoadSettings& asked = {}) { return load(file.text(), asked); }
-
-std::string refusal(const std::string& bytes) {
-    return input_error([&] { load(bytes); });
-}
-std::string refusal(const GltfMaker& file) { return refusal(file.text()); }
-
 /// Corners of a triangle of a scene.
 std::vector<glm::vec3> corners(const SceneDescription& scene, std::size_t triangle) {
     const glm::uvec3 v = scene.triangles.at(triangle).vertex;
     return {scene.positions[v.x], scene.positions[v.y], scene.positions[v.z]};
-}
-
-bool is_told(const SceneDescription& scene, const std::string& words) {
-    return std::any_of(scene.warnings.begin(), scene.warnings.end(),
-                       [&](const std::string& warning) { return warning.find(words) != std::string::npos; });
 }
 
 const std::vector<glm::vec3> kTriangle{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
@@ -49,7 +34,7 @@ TEST_CASE("gltf: a file of points alone is refused with the reason") {
     GltfMaker file;
     file.triangle();
     file.root["meshes"][0]["primitives"][0]["mode"] = 0;
-    CHECK_THAT(refusal(file),
+    CHECK_THAT(gltf_refusal(file),
                contains("got no triangle with an area; ") && contains("points and lines are left out"));
 }
 
@@ -57,7 +42,7 @@ TEST_CASE("gltf: a triangle, as text and as a .glb, of any suffix") {
     GltfMaker file;
     file.triangle();
     for (const std::string& bytes : {file.text(), file.glb(), "\xEF\xBB\xBF" + file.text()}) {
-        const SceneDescription scene = load(bytes);
+        const SceneDescription scene = load_gltf(bytes);
         REQUIRE(scene.triangles.size() == 1);
         CHECK(corners(scene, 0) == kTriangle);
         CHECK(scene.up == glm::vec3(0, 1, 0));
@@ -89,7 +74,7 @@ TEST_CASE("gltf: indices, strips and fans have the order of the format") {
             primitive.erase("corners");
         }
         file.node({{"mesh", file.mesh(primitive)}});
-        return load(file);
+        return load_gltf(file);
     };
     const SceneDescription listed = triangles({{"corners", {0, 1, 2, 0, 2, 3}}});
     CHECK(corners(listed, 0) == square[0]);
@@ -125,7 +110,7 @@ TEST_CASE("gltf: strided, quantized and sparse accessors") {
            {"indices", {{"bufferView", file.view(test::bytes_of<std::uint8_t>({1, 2}))}, {"componentType", 5121}}},
            {"values", {{"bufferView", file.view(test::bytes_of<float>({1, 0, 0, 0, 1, 0}))}}}}}});
     file.node({{"mesh", file.mesh({{"attributes", {{"POSITION", sparse}}}})}});
-    const SceneDescription scene = load(file);
+    const SceneDescription scene = load_gltf(file);
     REQUIRE(scene.triangles.size() == 3);
     CHECK(corners(scene, 0) == kTriangle);
     CHECK(corners(scene, 1) == std::vector<glm::vec3>{{0, 0, 0}, {0, 1, 0}, {-1, 0, 0}});
@@ -139,7 +124,7 @@ TEST_CASE("gltf: nodes move, turn and scale the nodes below them") {
     const double half = std::sqrt(0.5);
     file.node({{"children", {0}}, {"rotation", {0, 0, half, half}}, {"scale", {2, 3, 1}}});  // 90 degrees about z
     file.node({{"children", {1}}, {"matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 5, 1}}});
-    const SceneDescription scene = load(file);
+    const SceneDescription scene = load_gltf(file);
     const std::vector<glm::vec3> expected{{0, 2, 5}, {0, 4, 5}, {-3, 2, 5}};
     for (std::size_t i = 0; i < 3; ++i)
         for (int axis = 0; axis < 3; ++axis)
@@ -157,7 +142,7 @@ TEST_CASE("gltf: each node has its copy of a mesh, a mirrored one with its front
     file.node({{"mesh", mesh}});
     file.node({{"mesh", good}, {"scale", {1, 2, 1}}});
     file.node({{"mesh", good}, {"scale", {-1, 1, 1}}});
-    const SceneDescription scene = load(file);
+    const SceneDescription scene = load_gltf(file);
     REQUIRE(scene.triangles.size() == 3);
     CHECK(scene.triangles[0].normal.x == TriangleDescription::kNoNormal);
     CHECK(is_told(scene, "normals of no length are ignored (1 in all)"));
@@ -178,9 +163,9 @@ TEST_CASE("gltf: a skin is in the pose of its joints") {
     file.node({{"mesh", mesh}, {"skin", 0}, {"translation", {100, 0, 0}}});
     file.node({{"translation", {0, 0, 1}}});
     file.node({{"translation", {0, 5, 0}}});
-    CHECK(corners(load(file), 0) == std::vector<glm::vec3>{{0, 0, 1}, {1, 0, 1}, {0, 6, 0}});
+    CHECK(corners(load_gltf(file), 0) == std::vector<glm::vec3>{{0, 0, 1}, {1, 0, 1}, {0, 6, 0}});
     file.root["skins"][0]["joints"] = {1};
-    CHECK_THAT(refusal(file), contains("JOINTS_0") && contains("expected joints below 1, got 1 at vertex 2"));
+    CHECK_THAT(gltf_refusal(file), contains("JOINTS_0") && contains("expected joints below 1, got 1 at vertex 2"));
 }
 
 TEST_CASE("gltf: the scene that the file shows, without it all roots") {
@@ -188,11 +173,11 @@ TEST_CASE("gltf: the scene that the file shows, without it all roots") {
     file.triangle();
     file.triangle();
     file.triangle();
-    CHECK(load(file).triangles.size() == 3);
+    CHECK(load_gltf(file).triangles.size() == 3);
     file.root["scenes"] = {{{"nodes", {0}}}, {{"nodes", {1, 2}}}};
-    CHECK(load(file).triangles.size() == 1);
+    CHECK(load_gltf(file).triangles.size() == 1);
     file.root["scene"] = 1;
-    CHECK(load(file).triangles.size() == 2);
+    CHECK(load_gltf(file).triangles.size() == 2);
 }
 
 TEST_CASE("gltf: cameras can be chosen by name and number, and set the shape of the picture") {
@@ -207,7 +192,7 @@ TEST_CASE("gltf: cameras can be chosen by name and number, and set the shape of 
                {"rotation", {0, std::sqrt(0.5), 0, std::sqrt(0.5)}},
                {"translation", {7, 0, 0}}});
     file.node({{"camera", 2}});
-    const SceneDescription scene = load(file);
+    const SceneDescription scene = load_gltf(file);
     REQUIRE(scene.cameras.size() == 2);
     CHECK(is_told(scene, "cameras without perspective"));
     CHECK(scene.chosen_camera == 1);
@@ -216,15 +201,15 @@ TEST_CASE("gltf: cameras can be chosen by name and number, and set the shape of 
     CHECK(scene.camera.fov_deg == Approx(28.6479));
     CHECK(scene.setting("size") == "768x512");
     for (const char* name : {"side", "2"}) {
-        const SceneDescription chosen = load(file, {.camera = name});
+        const SceneDescription chosen = load_gltf(file, {.camera = name});
         CHECK(chosen.camera.eye == glm::vec3(7, 0, 0));
         CHECK(chosen.camera.target.x < 7.0f);
         CHECK(chosen.setting("size").empty());
     }
-    CHECK_THAT(test::error_message(ErrorKind::Usage, [&] { load(file, {.camera = "top"}); }),
+    CHECK_THAT(test::error_message(ErrorKind::Usage, [&] { load_gltf(file, {.camera = "top"}); }),
                contains("--scene-camera top") && contains("1 'front', 2 'side'"));
     file.root["cameras"][0]["perspective"]["yfov"] = 4;
-    CHECK_THAT(refusal(file), contains("cameras/0/perspective/yfov") && contains("got 4"));
+    CHECK_THAT(gltf_refusal(file), contains("cameras/0/perspective/yfov") && contains("got 4"));
 }
 
 TEST_CASE("gltf: punctual lights, in watts if Blender wrote them in lumens") {
@@ -239,9 +224,9 @@ TEST_CASE("gltf: punctual lights, in watts if Blender wrote them in lumens") {
         return Json{{"translation", {1, 2, 3}}, {"extensions", {{"KHR_lights_punctual", {{"light", light}}}}}};
     };
     file.node(shown(0));
-    CHECK(load(file).default_light);
+    CHECK(load_gltf(file).default_light);
     for (const int light : {1, 2, 3}) file.node(shown(light));
-    const SceneDescription scene = load(file);
+    const SceneDescription scene = load_gltf(file);
     CHECK_FALSE(scene.default_light);
     CHECK(is_told(scene, "lights of the type area are left out (1 in all)"));
     CHECK(is_told(scene, "ranges of lights are left out"));
@@ -255,13 +240,13 @@ TEST_CASE("gltf: punctual lights, in watts if Blender wrote them in lumens") {
     CHECK(scene.punctual_lights[2].kind == PunctualKind::Spot);
     CHECK(scene.punctual_lights[2].outer_deg == Approx(0.5f * 57.29578f));
     lights[3]["spot"]["innerConeAngle"] = 0.5;
-    CHECK_THAT(input_error([&] { load(file); }), contains("innerConeAngle < outerConeAngle"));
+    CHECK_THAT(input_error([&] { load_gltf(file); }), contains("innerConeAngle < outerConeAngle"));
     lights[3]["spot"]["innerConeAngle"] = 0.1;
     lights[1]["intensity"] = -1;
-    CHECK_THAT(input_error([&] { load(file); }), contains("an intensity of at least 0"));
+    CHECK_THAT(input_error([&] { load_gltf(file); }), contains("an intensity of at least 0"));
     lights[1]["intensity"] = 683;
     file.root["asset"]["generator"] = "Khronos glTF Blender I/O v4.2.70";
-    CHECK(load(file).punctual_lights[0].intensity.x == Approx(1.0));
+    CHECK(load_gltf(file).punctual_lights[0].intensity.x == Approx(1.0));
 }
 
 TEST_CASE("gltf: content without a counterpart is told once for each kind") {
@@ -271,7 +256,7 @@ TEST_CASE("gltf: content without a counterpart is told once for each kind") {
     file.root["meshes"][0]["primitives"].push_back({{"mode", 0}, {"attributes", {{"POSITION", 0}}}});
     file.root["animations"] = {{{"channels", Json::array()}, {"samplers", Json::array()}}};
     file.root["extensionsUsed"] = {"EXT_lights_image_based", "KHR_texture_transform"};
-    const SceneDescription scene = load(file);
+    const SceneDescription scene = load_gltf(file);
     CHECK(is_told(scene, "'meshes/0/primitives/1': points and lines are left out (2 in all)"));
     CHECK(is_told(scene, "animations are left out"));
     CHECK(is_told(scene, "the extension EXT_lights_image_based is left out"));
@@ -340,8 +325,8 @@ TEST_CASE("gltf: broken files are refused with place, expected and got", "[hard]
         Json text = Json::parse(file.text());
         text[Json::json_pointer(broken.pointer)] = broken.value;
         INFO(broken.pointer << " " << broken.value.dump());
-        CHECK_THAT(refusal(text.dump(1)), contains("s.gltf") || contains("none.bin"));
-        CHECK_THAT(refusal(text.dump(1)), contains(broken.told));
+        CHECK_THAT(gltf_refusal(text.dump(1)), contains("s.gltf") || contains("none.bin"));
+        CHECK_THAT(gltf_refusal(text.dump(1)), contains(broken.told));
     }
 }
 
@@ -349,24 +334,25 @@ TEST_CASE("gltf: indices beyond the vertices, numbers that are none, and giant c
     GltfMaker indices;
     indices.node({{"mesh", indices.mesh({{"attributes", {{"POSITION", indices.vec3(kSquare)}}},
                                          {"indices", indices.indices({0, 1, 4})}})}});
-    CHECK_THAT(refusal(indices), contains("expected indices below 4, the number of vertices, got 4 at corner 2"));
+    CHECK_THAT(gltf_refusal(indices),
+               contains("expected indices below 4, the number of vertices, got 4 at corner 2"));
 
     GltfMaker nan;
     nan.node({{"mesh", nan.mesh({{"attributes", {{"POSITION", nan.vec3({0, 0, 0, 1, 0, NAN, 0, 1, 0})}}}})}});
-    CHECK_THAT(refusal(nan), contains("'accessors/0': expected finite numbers, got nan as component 5"));
+    CHECK_THAT(gltf_refusal(nan), contains("'accessors/0': expected finite numbers, got nan as component 5"));
 
     GltfMaker zeros;
     const int giant = zeros.accessor({{"componentType", 5126}, {"type", "VEC3"}, {"count", 4000000000u}});
     zeros.node({{"mesh", zeros.mesh({{"attributes", {{"POSITION", giant}}}})}});
-    CHECK_THAT(refusal(zeros), contains("expected at most"));
+    CHECK_THAT(gltf_refusal(zeros), contains("expected at most"));
     zeros.root["accessors"][0]["count"] = 100000000;
-    CHECK_THAT(refusal(zeros), contains("elements without a buffer view, got 100000000"));
+    CHECK_THAT(gltf_refusal(zeros), contains("elements without a buffer view, got 100000000"));
 
     GltfMaker parents;
     parents.triangle();
     parents.node({{"children", {0}}});
     parents.node({{"children", {0}}});
-    CHECK_THAT(refusal(parents), contains("'nodes/2/children/0': expected a node without another parent"));
+    CHECK_THAT(gltf_refusal(parents), contains("'nodes/2/children/0': expected a node without another parent"));
 
     GltfMaker sparse;
     sparse.triangle();
@@ -374,7 +360,7 @@ TEST_CASE("gltf: indices beyond the vertices, numbers that are none, and giant c
         {"count", 1},
         {"indices", {{"bufferView", sparse.view(test::bytes_of<std::uint8_t>({3}))}, {"componentType", 5121}}},
         {"values", {{"bufferView", sparse.view(test::bytes_of<float>({1, 0, 0}))}}}};
-    CHECK_THAT(refusal(sparse), contains("expected indices below 3, got 3"));
+    CHECK_THAT(gltf_refusal(sparse), contains("expected indices below 3, got 3"));
 }
 
 TEST_CASE("gltf: a chain of a hundred thousand nodes is no depth of recursion", "[hard]") {
@@ -383,22 +369,23 @@ TEST_CASE("gltf: a chain of a hundred thousand nodes is no depth of recursion", 
     Json nodes = file.root["nodes"];
     for (int i = 0; i < 100000; ++i) nodes.push_back({{"children", {i}}});
     file.root["nodes"] = nodes;
-    CHECK(load(file).triangles.size() == 1);
+    CHECK(load_gltf(file).triangles.size() == 1);
 }
 
 TEST_CASE("gltf: a .glb that is cut or lies about its length is refused with the byte", "[hard]") {
     GltfMaker file;
     file.triangle();
     const std::string glb = file.glb();
-    for (const std::size_t size : {4, 11, 12, 19, 40}) CHECK_THAT(refusal(glb.substr(0, size)), contains("byte "));
-    CHECK_THAT(refusal(glb.substr(0, glb.size() - 4)), contains("byte 8: the header says"));
+    for (const std::size_t size : {4, 11, 12, 19, 40})
+        CHECK_THAT(gltf_refusal(glb.substr(0, size)), contains("byte "));
+    CHECK_THAT(gltf_refusal(glb.substr(0, glb.size() - 4)), contains("byte 8: the header says"));
     std::string other = glb;
     other[4] = 1;
-    CHECK_THAT(refusal(other), contains("byte 4: expected version 2 of the container, got 1"));
+    CHECK_THAT(gltf_refusal(other), contains("byte 4: expected version 2 of the container, got 1"));
     other = glb;
     other[16] = 'X';
-    CHECK_THAT(refusal(other), contains("byte 16: expected a JSON chunk first"));
+    CHECK_THAT(gltf_refusal(other), contains("byte 16: expected a JSON chunk first"));
     other = glb;
     other[15] = '\x7f';
-    CHECK_THAT(refusal(other), contains("byte 20: expected a chunk of"));
+    CHECK_THAT(gltf_refusal(other), contains("byte 20: expected a chunk of"));
 }

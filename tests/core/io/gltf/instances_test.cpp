@@ -4,19 +4,17 @@
 #include <functional>
 
 #include "core/io/kept_meshes.h"
-#include "core/io/load_scene.h"
 #include "tests/support/catch.hpp"
-#include "tests/support/files/gltf_maker.h"
-#include "tests/support/files/input_error.h"
-#include "tests/support/files/temporary_folder.h"
+#include "tests/support/files/load_gltf.h"
 #include "tests/support/scenes/copies.h"
 
 using namespace pl;
 using pl::test::check_same_triangles;
 using pl::test::contains;
 using pl::test::expanded;
+using pl::test::gltf_refusal;
 using pl::test::GltfMaker;
-using pl::test::input_error;
+using pl::test::load_gltf;
 using pl::test::TemporaryFolder;
 using Json = nlohmann::json;
 
@@ -24,15 +22,6 @@ namespace {
 
 const LoadSettings kKeep{.most_copied_triangles = 0};
 constexpr const char* kExtension = "EXT_mesh_gpu_instancing";
-
-SceneDescription load(const GltfMaker& file, const LoadSettings& asked = {}) {
-    const TemporaryFolder folder;
-    return load_scene(folder.write("s.glb", file.glb()).string(), "", asked);
-}
-
-std::string refusal(const GltfMaker& file, const LoadSettings& asked = {}) {
-    return input_error([&] { load(file, asked); });
-}
 
 /// A mesh of two primitives of different materials: a tilted square with normals, texture coordinates and colors, and a triangle.
 int leaf(GltfMaker& file) {
@@ -53,10 +42,10 @@ int leaf(GltfMaker& file) {
 
 /// Checks that the file gives instances above the limit, and the same triangles as below it.
 SceneDescription check_kept(const GltfMaker& file, std::size_t meshes, std::size_t instances) {
-    const SceneDescription kept = load(file, kKeep);
+    const SceneDescription kept = load_gltf(file, kKeep);
     CHECK(kept.meshes.size() == meshes);
     CHECK(kept.instances.size() == instances);
-    const SceneDescription copied = load(file);
+    const SceneDescription copied = load_gltf(file);
     CHECK(copied.meshes.empty());
     CHECK(copied.instances.empty());
     check_same_triangles(expanded(kept), copied);
@@ -103,8 +92,8 @@ TEST_CASE("gltf instances: the limit counts the copies of what is shown more tha
     const int mesh = leaf(file);
     for (int i = 0; i < 3; ++i) file.triangle();  // a mesh each
     for (int i = 0; i < 4; ++i) file.node({{"mesh", mesh}, {"translation", {i, 0, 0}}});
-    CHECK(load(file, {.most_copied_triangles = 12}).instances.empty());
-    const SceneDescription kept = load(file, {.most_copied_triangles = 11});
+    CHECK(load_gltf(file, {.most_copied_triangles = 12}).instances.empty());
+    const SceneDescription kept = load_gltf(file, {.most_copied_triangles = 11});
     CHECK(kept.instances.size() == 4);
     CHECK(kept.meshes.size() == 1);
     CHECK(direct_triangles(kept) == 3);
@@ -123,7 +112,7 @@ TEST_CASE("gltf instances: meshes that emit, have skins, or are shown once in an
     for (int i = 0; i < 2; ++i) file.node({{"mesh", skinned}, {"skin", 0}});
     file.triangle();
     file.node({{"mesh", 2}, {"scale", {-1, 1, 1}}});
-    const SceneDescription scene = load(file, kKeep);
+    const SceneDescription scene = load_gltf(file, kKeep);
     CHECK(scene.instances.empty());
     CHECK(scene.meshes.empty());
     CHECK(scene.triangles.size() == 6);
@@ -137,7 +126,7 @@ TEST_CASE("gltf instances: places that cannot be inverted or are too far away ar
     const SceneDescription kept = check_kept(file, 1, 2);
     CHECK(direct_triangles(kept) == 3);
     file.node({{"mesh", mesh}, {"translation", {2e18, 0, 0}}});
-    CHECK_THAT(refusal(file, kKeep), contains("expected coordinates up to 1e+18"));
+    CHECK_THAT(gltf_refusal(file, kKeep), contains("expected coordinates up to 1e+18"));
 }
 
 TEST_CASE("gltf instances: triangles without area and normals of no length are left out of the mesh") {
@@ -152,7 +141,7 @@ TEST_CASE("gltf instances: triangles without area and normals of no length are l
     const int nothing = flat.mesh({{"attributes", {{"POSITION", flat.vec3({0, 0, 0, 1, 0, 0, 1, 0, 0})}}}});
     flat.triangle();
     for (int i = 0; i < 2; ++i) flat.node({{"mesh", nothing}});
-    CHECK(load(flat, kKeep).meshes.empty());
+    CHECK(load_gltf(flat, kKeep).meshes.empty());
 }
 
 TEST_CASE("gltf instances: EXT_mesh_gpu_instancing places a node's mesh, copied or kept") {
@@ -187,7 +176,7 @@ TEST_CASE("gltf instances: EXT_mesh_gpu_instancing places a node's mesh, copied 
         {{"mesh", same}, {"translation", {4, 0, 0}}, {"rotation", {half, 0, 0, half}}, {"scale", {2, 0.5, 1}}});
     nodes.node(
         {{"mesh", same}, {"translation", {0, 5, 0.5}}, {"rotation", {0, 1, 0, 0}}, {"scale", {0.7, 0.7, 0.7}}});
-    check_same_triangles(load(file), load(nodes));
+    check_same_triangles(load_gltf(file), load_gltf(nodes));
 }
 
 TEST_CASE("gltf instances: EXT_mesh_gpu_instancing with attributes of its own alone, and beside a skin, shows the "
@@ -196,12 +185,12 @@ TEST_CASE("gltf instances: EXT_mesh_gpu_instancing with attributes of its own al
     file.triangle();
     file.root["nodes"][0]["extensions"] =
         instancing({{"_ID", file.numbers(std::vector<float>{1, 2}, 5126, "SCALAR", 2)}});
-    CHECK(load(file).triangles.size() == 1);
+    CHECK(load_gltf(file).triangles.size() == 1);
     file.root["nodes"][0]["extensions"] = instancing({{"TRANSLATION", file.vec3({0, 0, 0, 1, 0, 0})}});
-    CHECK(load(file).triangles.size() == 2);
+    CHECK(load_gltf(file).triangles.size() == 2);
     file.root["skins"] = {{{"joints", {0}}}};
     file.root["nodes"][0]["skin"] = 0;
-    const SceneDescription skinned = load(file, kKeep);
+    const SceneDescription skinned = load_gltf(file, kKeep);
     CHECK(skinned.triangles.size() == 1);
     CHECK(std::any_of(skinned.warnings.begin(), skinned.warnings.end(), [](const std::string& warning) {
         return warning.find("instances of meshes with skins are left out") != std::string::npos;
@@ -249,8 +238,8 @@ TEST_CASE("gltf instances: damaged places are refused with file, place, expected
         broken.damage(file, attributes);
         file.root["nodes"][0]["extensions"] = instancing(attributes);
         INFO(broken.told);
-        CHECK_THAT(refusal(file), contains("s.glb") && contains(broken.told));
-        CHECK_THAT(refusal(file, kKeep), contains(broken.told));
+        CHECK_THAT(gltf_refusal(file), contains("s.gltf") && contains(broken.told));
+        CHECK_THAT(gltf_refusal(file, kKeep), contains(broken.told));
     }
 }
 
@@ -267,7 +256,7 @@ TEST_CASE("gltf instances: ten thousand of a mesh of a hundred thousand triangle
     for (int i = 0; i < 10000; ++i)
         moves.insert(moves.end(), {static_cast<float>(i % 100), static_cast<float>(i / 100), 0});
     file.node({{"mesh", mesh}, {"extensions", instancing({{"TRANSLATION", file.vec3(moves)}})}});
-    const SceneDescription scene = load(file);
+    const SceneDescription scene = load_gltf(file);
     CHECK(scene.triangles.size() == kTriangles);
     CHECK(scene.positions.size() == kTriangles + 2);
     CHECK(scene.meshes.size() == 1);
@@ -287,14 +276,14 @@ TEST_CASE("gltf instances: more triangles than can be numbered, or copied, are r
     const int moves = file.vec3(std::vector<float>(3 * 66000, 1.0f));
     file.node({{"mesh", mesh}});
     file.node({{"mesh", mesh}, {"extensions", instancing({{"TRANSLATION", moves}})}});
-    CHECK_THAT(refusal(file),
+    CHECK_THAT(gltf_refusal(file),
                contains("'nodes/1': expected at most 4294967294 triangles with those of every instance, "
                         "got 4356066000 and more"));
     file.root["materials"] = {{{"emissiveFactor", {1, 0, 0}}}};
     file.root["meshes"][0]["primitives"][0]["material"] = 0;
     file.root["nodes"].erase(0);
     file.root["accessors"][static_cast<std::size_t>(moves)]["count"] = 1100;
-    CHECK_THAT(refusal(file),
+    CHECK_THAT(gltf_refusal(file),
                contains("'nodes/0': expected at most 67108864 triangles in the scene, with all copies"));
 }
 

@@ -6,31 +6,25 @@
 
 #include <stb_image_write.h>
 
-#include "core/io/load_scene.h"
 #include "core/io/mtl_surface.h"
 #include "core/kernel/shading/absorption.h"
 #include "tests/support/catch.hpp"
-#include "tests/support/files/gltf_maker.h"
-#include "tests/support/files/input_error.h"
-#include "tests/support/files/temporary_folder.h"
+#include "tests/support/files/load_gltf.h"
+#include "tests/support/files/told.h"
 
 using namespace pl;
 using pl::test::contains;
 using pl::test::GltfMaker;
-using pl::test::TemporaryFolder;
+using pl::test::is_told;
+using pl::test::load_gltf;
 using Json = nlohmann::json;
 
 namespace {
 
-SceneDescription load(const GltfMaker& file) {
-    const TemporaryFolder folder;
-    return load_scene(folder.write("s.gltf", file.text()).string(), "");
-}
-
 SceneDescription load(const Json& material) {
     GltfMaker file;
     file.triangle(material);
-    return load(file);
+    return load_gltf(file);
 }
 
 /// The only material of a file with this one.
@@ -43,11 +37,6 @@ MaterialDescription surface(const Json& material) {
 Json metal_rough(const Json& members) { return {{"pbrMetallicRoughness", members}}; }
 Json extended(const std::string& name, const Json& members) {
     return {{"pbrMetallicRoughness", {{"metallicFactor", 0}}}, {"extensions", {{"KHR_materials_" + name, members}}}};
-}
-
-bool is_told(const SceneDescription& scene, const std::string& words) {
-    return std::any_of(scene.warnings.begin(), scene.warnings.end(),
-                       [&](const std::string& warning) { return warning.find(words) != std::string::npos; });
 }
 
 /// Bytes of a PNG file of 2 x 1 texels.
@@ -101,7 +90,7 @@ TEST_CASE("gltf materials: metals and plastics by their metalness") {
 TEST_CASE("gltf materials: triangles without one are of a rough white metal, which is told") {
     GltfMaker file;
     file.triangle();
-    const SceneDescription scene = load(file);
+    const SceneDescription scene = load_gltf(file);
     REQUIRE(scene.materials.size() == 1);
     CHECK(scene.materials[0].kind == SurfaceKind::Conductor);
     CHECK(scene.materials[0].roughness == 1.0f);
@@ -202,11 +191,11 @@ TEST_CASE("gltf materials: anisotropy of metals") {
     GltfMaker bare;
     bare.triangle(brushed);
     bare.root["meshes"][0]["primitives"][0]["attributes"].erase("TEXCOORD_0");
-    CHECK(is_told(load(bare), "1 triangles are anisotropic but have no texture coordinates"));
-    CHECK_FALSE(is_told(load(bare), "tangents"));
+    CHECK(is_told(load_gltf(bare), "1 triangles are anisotropic but have no texture coordinates"));
+    CHECK_FALSE(is_told(load_gltf(bare), "tangents"));
     const auto tangents = bare.numbers(std::vector<float>(12, 1.0f), 5126, "VEC4", 3);
     bare.root["meshes"][0]["primitives"][0]["attributes"]["TANGENT"] = tangents;
-    CHECK(is_told(load(bare), "tangents are left out: texture coordinates decide the direction of anisotropy"));
+    CHECK(is_told(load_gltf(bare), "tangents are left out: texture coordinates decide the direction of anisotropy"));
     brushed["pbrMetallicRoughness"] = {{"metallicFactor", 0.25}, {"roughnessFactor", 0.5}};
     const SceneDescription blend = load(brushed);
     REQUIRE(blend.materials.size() == 2);
@@ -282,7 +271,7 @@ TEST_CASE("gltf materials: of two with one name both can be told apart") {
     file.triangle({{"name", "a"}});
     file.triangle({{"name", "a"}});
     file.triangle(Json::object());
-    const SceneDescription scene = load(file);
+    const SceneDescription scene = load_gltf(file);
     CHECK(scene.materials[0].name == "a");
     CHECK(scene.materials[1].name == "a (1)");
     CHECK(scene.materials[2].name == "material 2");
@@ -290,7 +279,7 @@ TEST_CASE("gltf materials: of two with one name both can be told apart") {
 
 TEST_CASE("gltf images: colors are decoded, roughness is green, and coordinates start at the top") {
     const Json info = {{"index", 0}};
-    const SceneDescription scene = load(with_image(
+    const SceneDescription scene = load_gltf(with_image(
         metal_rough({{"metallicFactor", 0}, {"baseColorTexture", info}, {"metallicRoughnessTexture", info}}),
         {255, 51, 0, 255, 0, 255, 255, 0}));
     const MaterialDescription& material = scene.materials[0];
@@ -308,7 +297,7 @@ TEST_CASE("gltf images: colors are decoded, roughness is green, and coordinates 
 TEST_CASE("gltf images: an anisotropic metal has an image of roughness of its own") {
     Json material = metal_rough({{"roughnessFactor", 0.5}, {"metallicRoughnessTexture", {{"index", 0}}}});
     material["extensions"]["KHR_materials_anisotropy"] = {{"anisotropyStrength", 0.5}};
-    const SceneDescription scene = load(with_image(material, {0, 255, 255, 255, 0, 255, 255, 255}));
+    const SceneDescription scene = load_gltf(with_image(material, {0, 255, 255, 255, 0, 255, 255, 255}));
     const MaterialDescription& metal = scene.materials[0];
     CHECK(metal.roughness == 1.0f);
     CHECK(metal.anisotropy == Approx(1.0 - 0.25 / 0.4375));
@@ -318,7 +307,7 @@ TEST_CASE("gltf images: an anisotropic metal has an image of roughness of its ow
 
 TEST_CASE("gltf images: metalness that varies blends metal and plastic") {
     const Json material = metal_rough({{"metallicFactor", 0.5}, {"metallicRoughnessTexture", {{"index", 0}}}});
-    const SceneDescription scene = load(with_image(material, {0, 99, 0, 255, 0, 99, 255, 255}));
+    const SceneDescription scene = load_gltf(with_image(material, {0, 99, 0, 255, 0, 99, 255, 255}));
     REQUIRE(scene.materials.size() == 2);
     CHECK(scene.triangles[0].material == 0);
     const MaterialDescription& base = scene.materials[0];
@@ -331,7 +320,7 @@ TEST_CASE("gltf images: metalness that varies blends metal and plastic") {
     CHECK(scene.materials[1].name == "material 0 (metal)");
     CHECK(scene.materials[1].textures.roughness == base.textures.roughness);
     CHECK(scene.warnings.size() == 1);  // of the light that the scene lacks
-    const SceneDescription even = load(
+    const SceneDescription even = load_gltf(
         with_image(metal_rough({{"metallicRoughnessTexture", {{"index", 0}}}}), {0, 99, 255, 255, 0, 99, 255, 255}));
     REQUIRE(even.materials.size() == 1);
     CHECK(even.materials[0].kind == SurfaceKind::Conductor);
@@ -346,7 +335,7 @@ TEST_CASE("gltf images: transformations, sets and wrapping of coordinates") {
     GltfMaker file = with_image(metal_rough({{"baseColorTexture", info}}), {1, 2, 3, 4, 5, 6, 7, 8});
     file.root["samplers"] = {{{"wrapS", 33071}, {"wrapT", 33071}}};
     file.root["textures"][0]["sampler"] = 0;
-    const SceneDescription scene = load(file);
+    const SceneDescription scene = load_gltf(file);
     CHECK_FALSE(scene.textures[0].repeats);
     // A quarter turn takes u to -v and v to u; then v is measured from below.
     const std::vector<glm::vec2> expected{{0.5f, 0.75f}, {0.5f, 2.75f}, {4.5f, 0.75f}};
@@ -357,7 +346,7 @@ TEST_CASE("gltf images: transformations, sets and wrapping of coordinates") {
     file.root["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", 0}, {"texCoord", 1}};
     file.root["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_1"] = file.vec2({0, 1, 0, 1, 0, 1});
     file.root["samplers"][0] = {{"wrapS", 33648}};
-    const SceneDescription other = load(file);
+    const SceneDescription other = load_gltf(file);
     CHECK(other.uvs[0] == glm::vec2(0.0f, 0.0f));
     CHECK(other.textures[0].repeats);
     CHECK(is_told(other, "mirrored repetition"));
@@ -369,17 +358,17 @@ TEST_CASE("gltf images: holes by the cutoff of the mask, and partial opacity") {
     const std::array<std::uint8_t, 8> rgba{255, 255, 255, 51, 255, 255, 255, 255};
     material["alphaMode"] = "MASK";
     material["pbrMetallicRoughness"]["baseColorFactor"] = {1, 1, 1, 1};
-    SceneDescription scene = load(with_image(material, rgba));
+    SceneDescription scene = load_gltf(with_image(material, rgba));
     CHECK(scene.materials[0].textures.opacity == scene.materials[0].textures.albedo);
     CHECK(scene.textures[0].texels[0].w == Approx(0.2));
     CHECK(scene.materials[0].opacity == 1.0f);
     CHECK(scene.materials[0].opacity_rule == OpacityRule::Threshold);
     material["alphaCutoff"] = 0.1;
-    scene = load(with_image(material, rgba));
+    scene = load_gltf(with_image(material, rgba));
     CHECK(scene.textures[0].texels[0].w == 1.0f);  // 0.2 is above the cutoff
     material["alphaMode"] = "BLEND";
     material["pbrMetallicRoughness"]["baseColorFactor"][3] = 0.5;
-    scene = load(with_image(material, rgba));
+    scene = load_gltf(with_image(material, rgba));
     CHECK(scene.textures[0].texels[0].w == Approx(0.2));
     CHECK(scene.materials[0].textures.opacity == scene.materials[0].textures.albedo);
     CHECK(scene.materials[0].opacity == 0.5f);
@@ -405,7 +394,7 @@ TEST_CASE("gltf materials: an even opacity blends, or is that of nothing at all"
     material["pbrMetallicRoughness"]["baseColorFactor"][3] = 0;
     hidden.triangle(material);
     hidden.triangle(metal_rough({}));
-    CHECK(load(hidden).triangles.size() == 1);
+    CHECK(load_gltf(hidden).triangles.size() == 1);
 }
 
 TEST_CASE("gltf: colors of vertices, as floats and as normalized integers, multiply the base color") {
@@ -421,44 +410,45 @@ TEST_CASE("gltf: colors of vertices, as floats and as normalized integers, multi
     using Bytes = std::vector<std::uint8_t>;
     using Shorts = std::vector<std::uint16_t>;
     const SceneDescription bytes =
-        load(colored(Bytes{255, 51, 0, 255, 0, 0, 255, 255, 102, 0, 0, 255}, 5121, "VEC4"));
+        load_gltf(colored(Bytes{255, 51, 0, 255, 0, 0, 255, 255, 102, 0, 0, 255}, 5121, "VEC4"));
     const std::vector<glm::vec3> expected{{1, 1, 1}, {1, 1, 1}, {1, 1, 1}, {1, 0.2f, 0}, {0, 0, 1}, {0.4f, 0, 0}};
     CHECK(bytes.vertex_colors == expected);
     CHECK(bytes.materials[bytes.triangles[1].material].albedo == glm::vec3(1.0f));
     CHECK_FALSE(is_told(bytes, "of vertices"));
-    const SceneDescription shorts = load(colored(Shorts{65535, 13107, 0, 0, 0, 65535, 26214, 0, 0, 0}, 5123, "VEC3"));
+    const SceneDescription shorts =
+        load_gltf(colored(Shorts{65535, 13107, 0, 0, 0, 65535, 26214, 0, 0, 0}, 5123, "VEC3"));
     CHECK(shorts.vertex_colors == expected);
-    const SceneDescription floats = load(colored(std::vector<float>{1, 0.2f, -1, 0, 0, 3, 0.4f, 0, 0}, 5126, "VEC3"));
+    const SceneDescription floats =
+        load_gltf(colored(std::vector<float>{1, 0.2f, -1, 0, 0, 3, 0.4f, 0, 0}, 5126, "VEC3"));
     CHECK(floats.vertex_colors == expected);
     CHECK(is_told(floats, "colors of vertices outside of [0, 1] are moved into it"));
-    CHECK(is_told(load(colored(Bytes{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12}, 5121, "VEC4")),
-                  "opacities of vertices are left out"));
-    CHECK(load(colored(Bytes(12, 255), 5121, "VEC4")).vertex_colors.empty());
-    CHECK_THAT(test::input_error([&] { load(colored(Bytes(12, 9), 5121, "VEC4", 2)); }),
+    CHECK_FALSE(is_told(load_gltf(colored(Bytes{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12}, 5121, "VEC4")), "opacities"));
+    CHECK(load_gltf(colored(Bytes(12, 255), 5121, "VEC4")).vertex_colors.empty());
+    CHECK_THAT(test::input_error([&] { load_gltf(colored(Bytes(12, 9), 5121, "VEC4", 2)); }),
                contains("expected one element for each of the 3 vertices, got 2"));
-    CHECK_THROWS_AS(load(colored(std::vector<float>(6), 5126, "VEC2")), Error);
+    CHECK_THROWS_AS(load_gltf(colored(std::vector<float>(6), 5126, "VEC2")), Error);
 }
 
 TEST_CASE("gltf images: one that cannot be read is shown as checkers, one outside of the folder refused", "[hard]") {
     GltfMaker file = with_image(metal_rough({{"baseColorTexture", {{"index", 0}}}}), {1, 2, 3, 4, 5, 6, 7, 8});
     file.root["images"][0] = {{"uri", "none.png"}};
-    const SceneDescription scene = load(file);
+    const SceneDescription scene = load_gltf(file);
     CHECK(is_told(scene, "none.png"));
     CHECK(is_told(scene, "shown as checkers"));
     CHECK(scene.textures[0].texels[0] == glm::vec4(1, 0, 1, 1));
     file.root["images"][0] = {{"uri", "data:image/png;base64,iVBORw0KGgo="}};
-    CHECK(is_told(load(file), "shown as checkers"));
+    CHECK(is_told(load_gltf(file), "shown as checkers"));
     file.root["images"][0] = {{"uri", "../none.png"}};
-    CHECK_THAT(test::input_error([&] { load(file); }),
+    CHECK_THAT(test::input_error([&] { load_gltf(file); }),
                contains("'images/0/uri': expected data or a file in the folder"));
     file.root["textures"][0]["source"] = 5;
-    CHECK_THAT(test::input_error([&] { load(file); }), contains("expected an index into the 1 images, got 5"));
+    CHECK_THAT(test::input_error([&] { load_gltf(file); }), contains("expected an index into the 1 images, got 5"));
 }
 
 TEST_CASE("gltf images: normal maps are linear, with their scale") {
     Json material = metal_rough({{"metallicFactor", 0}});
     material["normalTexture"] = {{"index", 0}, {"scale", 0.5}};
-    const SceneDescription scene = load(with_image(material, {255, 51, 0, 255, 0, 255, 255, 0}));
+    const SceneDescription scene = load_gltf(with_image(material, {255, 51, 0, 255, 0, 255, 255, 0}));
     REQUIRE(scene.textures.size() == 1);
     CHECK(scene.materials[0].textures.normal == 0);
     CHECK(scene.materials[0].normal_strength == 0.5f);
@@ -466,7 +456,7 @@ TEST_CASE("gltf images: normal maps are linear, with their scale") {
     CHECK(scene.textures[0].content == TextureContent::Normal);
     CHECK_FALSE(is_told(scene, "normal"));
     material["normalTexture"]["scale"] = -1;
-    const SceneDescription odd = load(with_image(material, {255, 51, 0, 255, 0, 255, 255, 0}));
+    const SceneDescription odd = load_gltf(with_image(material, {255, 51, 0, 255, 0, 255, 255, 0}));
     CHECK(odd.materials[0].normal_strength == 0.0f);
     CHECK(is_told(odd, "out of the range"));
 }

@@ -58,7 +58,7 @@ TEST_CASE("mitsuba instances: a group of several instances is kept once and has 
                        instance("g", "<rotate x=\"1\" y=\"2\" angle=\"40\"/><translate z=\"-7\"/>"),
                    1, 3);
     CHECK(direct_triangles(kept) == 14);
-    CHECK(kept.triangles.size() == 14 + 2 + 3968);
+    CHECK(kept.triangles.size() == 14 + 2 + 65024);
     CHECK(kept.meshes[0].name == "g");
     CHECK(kept.vertex_colors.size() == kept.positions.size());
 }
@@ -68,7 +68,7 @@ TEST_CASE("mitsuba instances: mirrored ones show a mirror image of the group and
         group("g", kBall + kSquare) + instance("g", "<translate x=\"5\"/>") + instance("g", "<scale x=\"-2\"/>") +
             instance("g", "<rotate y=\"1\" angle=\"20\"/><scale z=\"-1\"/>") + instance("g", "<scale value=\"2\"/>"),
         2, 4);
-    CHECK(kept.triangles.size() == 2 * (3968 + 2));
+    CHECK(kept.triangles.size() == 2 * (65024 + 2));
     CHECK(kept.meshes[1].name == "g (mirrored)");
 }
 
@@ -133,16 +133,16 @@ TEST_CASE("mitsuba instances: a relief rises by the mean scale of its instances"
 
 TEST_CASE("mitsuba instances: more triangles than can be numbered, or copied, are refused at their instance",
           "[hard]") {
-    // The ball has 3968 triangles; a thousand of them in a group.
+    // Each ball has 16128 triangles, each lamp 224.
     std::string balls;
     for (int i = 0; i < 20; ++i) balls += kBall;
     std::string lamps, instances;
     for (int i = 0; i < 20; ++i) lamps += "<shape type=\"sphere\"><emitter type=\"area\"/></shape>";
-    for (int i = 0; i < 54200; ++i) instances += "<shape type=\"instance\"><ref id=\"g\"/></shape>\n";
+    for (int i = 0; i < 16000; ++i) instances += "<shape type=\"instance\"><ref id=\"g\"/></shape>\n";
     CHECK_THAT(refusal(group("g", balls) + "\n" + instances),
-               contains("s.xml:54123") &&
+               contains("s.xml:13318") &&
                    contains("expected at most 4294967294 triangles with those of every instance"));
-    instances.resize(instances.size() / 54200 * 1000);
+    instances.resize(instances.size() / 16000 * 15000);
     CHECK_THAT(refusal(group("g", lamps) + instances),
                contains("expected at most 67108864 triangles in the scene, with all copies of shapes"));
 }

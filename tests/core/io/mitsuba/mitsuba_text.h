@@ -1,13 +1,13 @@
 // Scenes of Mitsuba from text, for tests of their reader.
 #pragma once
 
-#include <algorithm>
 #include <string>
 
 #include "core/io/load_scene.h"
 #include "tests/support/catch.hpp"
 #include "tests/support/files/input_error.h"
 #include "tests/support/files/temporary_folder.h"
+#include "tests/support/files/told.h"
 
 namespace pl::test {
 
@@ -29,11 +29,5 @@ inline std::string refusal(const std::string& content) {
 }
 
 inline const std::string kSquare = "<shape type=\"rectangle\"/>";
-
-/// Whether a warning has these words.
-inline bool is_told(const SceneDescription& scene, const std::string& words) {
-    return std::any_of(scene.warnings.begin(), scene.warnings.end(),
-                       [&](const std::string& warning) { return warning.find(words) != std::string::npos; });
-}
 
 }  // namespace pl::test

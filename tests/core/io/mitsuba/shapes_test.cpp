@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstring>
 
+#include <glm/gtc/constants.hpp>
+
 #include "tests/core/io/mitsuba/mitsuba_text.h"
 
 using namespace pl;
@@ -89,14 +91,70 @@ TEST_CASE("mitsuba: rectangle, cube, disk and sphere, with their fronts outwards
                 CHECK(cube.uvs[t.uv[k]] == 0.5f * (glm::vec2(p.y, -p.x) + 1.0f));
             }
     const glm::dvec4 disk = normal_and_area(load_mitsuba_text("<shape type=\"disk\"/>"));
-    CHECK(disk.z == Approx(3.14159).epsilon(0.01));
+    CHECK(disk.z == Approx(glm::pi<double>()).epsilon(1e-5));
+    CHECK(disk.w == Approx(glm::pi<double>()).epsilon(1e-5));
     const SceneDescription ball = load_mitsuba_text("<shape type=\"sphere\"><point name=\"center\" x=\"1\" y=\"2\" "
                                                     "z=\"3\"/><float name=\"radius\" value=\"2\"/></shape>");
-    CHECK(volume(ball) == Approx(8.0 * 4.18879).epsilon(0.01));
-    CHECK(is_told(ball, "spheres are meshes"));
-    for (const glm::vec3& p : ball.positions)
-        CHECK(glm::length(p - glm::vec3(1, 2, 3)) == Approx(2.0f).epsilon(1e-5));
-    CHECK(glm::dot(ball.normals[0], glm::vec3(0, 0, 1)) == Approx(1.0f));
+    CHECK(volume(ball) == Approx(32.0 / 3.0 * glm::pi<double>()).epsilon(2e-4));
+    CHECK(normal_and_area(ball).w == Approx(16.0 * glm::pi<double>()).epsilon(1e-5));
+    CHECK(is_told(ball, "spheres are fine meshes of their area"));
+    float farthest = 0.0f;
+    for (const TriangleDescription& t : ball.triangles)
+        for (int k = 0; k < 3; ++k) {
+            const glm::vec3 offset = ball.positions[t.vertex[k]] - glm::vec3(1, 2, 3);
+            farthest = std::max(farthest, std::abs(glm::length(offset) - 2.0f));
+            farthest = std::max(farthest, glm::distance(glm::normalize(offset), ball.normals[t.normal[k]]));
+        }
+    CHECK(farthest < 2e-4f);
+}
+
+TEST_CASE("mitsuba: texture coordinates of a disk are those of its points, in a ring and around") {
+    const SceneDescription disk = load_mitsuba_text("<shape type=\"disk\"/>");
+    for (const TriangleDescription& t : disk.triangles) {
+        glm::dvec2 p(0.0), uv(0.0);
+        for (int k = 0; k < 3; ++k) {
+            p += glm::dvec2(disk.positions[t.vertex[k]]) / 3.0;
+            uv += glm::dvec2(disk.uvs[t.uv[k]]) / 3.0;
+        }
+        CHECK(std::abs(uv.x - glm::length(p)) < 1e-3);
+        const double turn = std::atan2(p.y, p.x) / (2.0 * glm::pi<double>());
+        CHECK(std::abs(1.0 - uv.y - (turn < 0.0 ? turn + 1.0 : turn)) < 1e-3);
+    }
+}
+
+TEST_CASE("mitsuba: spheres and disks have their area, and the fewer triangles the more there are or if they emit") {
+    const auto balls = [](int count, const std::string& inside) {
+        std::string text;
+        for (int i = 0; i < count; ++i) text += "<shape type=\"sphere\">" + inside + "</shape>";
+        return text;
+    };
+    const std::string light = "<emitter type=\"area\"/>";
+    // Of each: both ends of its range but those of thousands.
+    const struct {
+        std::string content;
+        int balls;
+        std::size_t triangles;
+    } cases[] = {{balls(16, ""), 16, 65024},
+                 {balls(17, ""), 17, 16128},
+                 {balls(101, ""), 101, 3968},
+                 {balls(4, light), 4, 3968},
+                 {balls(5, light), 5, 960},
+                 {balls(101, light), 101, 224},
+                 {balls(1, "") + "<shape type=\"shapegroup\" id=\"g\">" + balls(16, "") + "</shape>", 1, 16128}};
+    for (const auto& expected : cases) {
+        const SceneDescription scene = load_mitsuba_text(expected.content);
+        CHECK(scene.triangles.size() == expected.triangles * static_cast<std::size_t>(expected.balls));
+        CHECK(normal_and_area(scene).w == Approx(4.0 * glm::pi<double>() * expected.balls).epsilon(1e-5));
+    }
+    CHECK(load_mitsuba_text("<shape type=\"disk\"/>").triangles.size() == 256);
+    const SceneDescription lamp = load_mitsuba_text("<shape type=\"disk\">" + light + "</shape>");
+    CHECK(lamp.triangles.size() == 64);
+    CHECK(normal_and_area(lamp).w == Approx(glm::pi<double>()).epsilon(1e-5));
+    // Every instance of a group that emits is a copy, before its group or behind it.
+    const std::string shown = "<shape type=\"instance\"><ref id=\"g\"/></shape>";
+    const SceneDescription copies = load_mitsuba_text(shown + "<shape type=\"shapegroup\" id=\"g\">" +
+                                                      balls(2, light) + "</shape>" + shown + shown);
+    CHECK(copies.triangles.size() == 6 * 960);
 }
 
 TEST_CASE("mitsuba: transformations in their order, of both spellings, mirrored and flipped fronts") {

@@ -57,9 +57,7 @@ TEST_CASE("mitsuba: surfaces, by reference, inside of adapters, and with the val
           Approx(0.01400827).epsilon(0.01));
     CHECK(surface("<bsdf type=\"principled\"><float name=\"metallic\" value=\"1\"/></bsdf>").kind ==
           SurfaceKind::Conductor);
-    const SceneDescription odd =
-        load_mitsuba_text("<shape type=\"rectangle\"><bsdf type=\"coating\"><bsdf type=\"hair\"/></bsdf></shape>");
-    CHECK(is_told(odd, "the effect of 'coating' is left out"));
+    const SceneDescription odd = load_mitsuba_text("<shape type=\"rectangle\"><bsdf type=\"hair\"/></shape>");
     CHECK(is_told(odd, "surfaces of the type 'hair' are shown as gray"));
     const SceneDescription plain =
         load_mitsuba_text("<shape type=\"rectangle\"><bsdf type=\"normalmap\"><rgb name=\"normalmap\" "

@@ -1,0 +1,21 @@
+// Interfaces of Mitsuba's surfaces: indices of refraction, facets, and the reflectance of metals.
+#pragma once
+
+#include "core/io/mitsuba/xml_file.h"
+#include "core/scene/description.h"
+
+namespace pl {
+
+/// Index of refraction `int_ior` over `ext_ior`, as numbers or names, within the valid range.
+float mitsuba_ior(const MitsubaObject& bsdf, float standard);
+
+/// Sets the roughness of a material by `alpha` and `distribution`; conductors get the anisotropy of `alpha_u` and `alpha_v`, too.
+void read_mitsuba_facets(const MitsubaObject& bsdf, MaterialDescription& material);
+
+/// Share of diffuse light that a smooth interface reflects from inside. [d'Eon and Irving 2011]
+double internal_reflectance(double eta);
+
+/// Edge tint of a conductor by its reflectance at normal incidence and at kEdgeCosine.
+float edge_tint_of(float normal, float edge);
+
+}  // namespace pl
