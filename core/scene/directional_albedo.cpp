@@ -7,85 +7,88 @@
 
 #include "core/base/parallel_chunks.h"
 #include "core/kernel/shading/fresnel.h"
-#include "core/kernel/shading/microfacet.h"
+#include "core/scene/facet_albedo.h"
 
 namespace pl {
 namespace {
 
-/// Samples per table entry, for an error of about 1e-3. A regular grid of as many points has ten times the error.
-constexpr int kSamples = 1024;
-/// Rows below this roughness hold the values of the smooth interface.
-constexpr float kSmooth = 1e-3f;
+constexpr int kRows = AlbedoTable::kRoughnesses;
+constexpr int kColumns = AlbedoTable::kCosines;
+/// One row in so many is integrated, those between follow from cubic polynomials.
+constexpr int kRowStep = 4;
+static_assert((kRows - 1) % kRowStep == 0);
+/// At grazing incidence hardly a facet is visible: a direction slightly above is used instead.
+constexpr double kLeastCosine = 1e-5;
 
-/// Point i of the R2 sequence in the unit square.   [Roberts 2018, "The Unreasonable Effectiveness of Quasirandom
-/// Sequences"]
-Vec2f spread_point(int i) {
-    const double x = 0.5 + i * 0.7548776662466927;
-    const double y = 0.5 + i * 0.5698402909980532;
-    return {static_cast<float>(x - std::floor(x)), static_cast<float>(y - std::floor(y))};
-}
+/// Inverse of AlbedoTable::row_share().
+double roughness_at(double share) { return (1.6 - std::sqrt(1.6 * 1.6 - 2.4 * share)) / 1.2; }
+double cosine_at(double share) { return share * share; }
 
-/// Mean of value(ggx, wo, m) over the normals m visible from a direction.
-template <class Value>
-float mean_over_facets(float roughness, float cos_theta, Value value) {
-    const Ggx ggx{{square(roughness)}};
-    const Vec3f wo{safe_sqrt(1.0f - cos_theta * cos_theta), 0.0f, cos_theta};
-    double sum = 0.0;
-    for (int i = 0; i < kSamples; ++i) sum += static_cast<double>(value(ggx, wo, ggx.sample(wo, spread_point(i))));
-    return static_cast<float>(sum / kSamples);
-}
-
-/// Weight of a reflection with Fresnel reflectance 1: f cos / pdf = G2 / G1, 0 below the horizon.   [Heitz 2018, eq.
-/// 19]
-float mirrored(const Ggx& ggx, Vec3f wo, Vec3f m) {
-    const Vec3f wi = reflect_at(wo, m);
-    return wi.z > 0.0f ? ggx.visible(wo, wi) / ggx.visible(wo) : 0.0f;
-}
-float refracted(const Ggx& ggx, Vec3f wo, Vec3f m, float eta) {
-    const Vec3f wi = refract_at(wo, m, eta);
-    return wi.z < 0.0f ? ggx.visible(wo, wi) / ggx.visible(wo) : 0.0f;
-}
-
-/// Cosine-weighted mean of a row: 2 times the integral of mu times the value, with the interpolation of AlbedoTable.
-float mean_of_row(const float* row) {
+/// Shares of the columns in the cosine-weighted mean of a row, 2 times the integral of mu times the value, with the interpolation of
+/// AlbedoTable.
+std::vector<double> shares_of_columns() {
     constexpr int kSteps = 32;
-    double sum = 0.0;
-    double weights = 0.0;
-    for (int i = 0; i + 1 < AlbedoTable::kCosines; ++i)
+    std::vector<double> shares(kColumns);
+    for (std::size_t i = 0; i + 1 < kColumns; ++i)
         for (int k = 0; k < kSteps; ++k) {
-            const double share = (k + 0.5) / kSteps;
-            const double root = (i + share) / (AlbedoTable::kCosines - 1);
-            const double weight = root * root * root;  // mu dmu for mu = root^2
-            sum += weight * (static_cast<double>(row[i]) * (1.0 - share) + static_cast<double>(row[i + 1]) * share);
-            weights += weight;
+            const double begin =
+                cosine_at((static_cast<double>(i) + static_cast<double>(k) / kSteps) / (kColumns - 1));
+            const double end = cosine_at((static_cast<double>(i) + (k + 1.0) / kSteps) / (kColumns - 1));
+            const double next = (k + 0.5) / kSteps;
+            shares[i] += (end * end - begin * begin) * (1.0 - next);
+            shares[i + 1] += (end * end - begin * begin) * next;
         }
-    return static_cast<float>(sum / weights);
+    return shares;
 }
 
-/// smooth(cos) gives the row of roughness 0; `value`, as in mean_over_facets(), the others.
-template <class Smooth, class Value>
-std::vector<float> make_table(Smooth smooth, Value value) {
-    std::vector<float> table(AlbedoTable::kSize);
-    for_chunks(AlbedoTable::kRoughnesses, 1, usable_threads(), [&](IndexRange row) {
-        const float roughness = static_cast<float>(row.begin) / (AlbedoTable::kRoughnesses - 1);
-        float* const values = table.data() + row.begin * AlbedoTable::kCosines;
-        for (int c = 0; c < AlbedoTable::kCosines; ++c) {
-            // At grazing incidence hardly a facet is visible: a direction slightly above is used instead.
-            const float cos_theta = max_of(square(static_cast<float>(c) / (AlbedoTable::kCosines - 1)), 1e-4f);
-            const float returned =
-                roughness < kSmooth ? smooth(cos_theta) : mean_over_facets(roughness, cos_theta, value);
-            values[c] = std::min(returned, 1.0f);
+/// Rows between those that are integrated: each value by the cubic polynomial through the four closest ones of its column.
+void interpolate_rows(std::vector<float>& table) {
+    constexpr int kKnown = (kRows - 1) / kRowStep + 1;
+    for (int row = 0; row < kRows; ++row) {
+        if (row % kRowStep == 0) continue;
+        const int first = std::clamp(row / kRowStep - 1, 0, kKnown - 4);
+        const double x = static_cast<double>(row) / kRowStep - first;
+        const double weights[] = {(x - 1.0) * (x - 2.0) * (x - 3.0) / -6.0, x * (x - 2.0) * (x - 3.0) / 2.0,
+                                  x * (x - 1.0) * (x - 3.0) / -2.0, x * (x - 1.0) * (x - 2.0) / 6.0};
+        for (int c = 0; c < kColumns; ++c) {
+            double value = 0.0;
+            for (int k = 0; k < 4; ++k)
+                value += weights[k] *
+                         static_cast<double>(table[static_cast<std::size_t>((first + k) * kRowStep * kColumns + c)]);
+            table[static_cast<std::size_t>(row * kColumns + c)] = static_cast<float>(std::clamp(value, 0.0, 1.0));
         }
-        table[AlbedoTable::kRoughnesses * AlbedoTable::kCosines + row.begin] = mean_of_row(values);
+    }
+}
+
+void add_means(std::vector<float>& table) {
+    static const std::vector<double> shares = shares_of_columns();
+    for (std::size_t row = 0; row < kRows; ++row) {
+        double mean = 0.0;
+        for (std::size_t c = 0; c < kColumns; ++c) mean += shares[c] * static_cast<double>(table[row * kColumns + c]);
+        table[static_cast<std::size_t>(kRows) * kColumns + row] = static_cast<float>(mean);
+    }
+}
+
+/// smooth(cos) gives the row of roughness 0, facet_albedo() the others.
+template <class Smooth>
+std::vector<float> make_table(FacetLight light, double eta, Smooth smooth) {
+    std::vector<float> table(AlbedoTable::kSize);
+    for_chunks((kRows - 1) / kRowStep + 1, 1, usable_threads(), [&](IndexRange range) {
+        const auto row = range.begin * kRowStep;
+        const double roughness = roughness_at(static_cast<double>(row) / (kRows - 1));
+        for (std::size_t c = 0; c < kColumns; ++c) {
+            const double cosine = std::max(cosine_at(static_cast<double>(c) / (kColumns - 1)), kLeastCosine);
+            const double albedo = row == 0 ? static_cast<double>(smooth(static_cast<float>(cosine)))
+                                           : facet_albedo(light, roughness * roughness, cosine, eta);
+            table[row * kColumns + c] = static_cast<float>(std::min(albedo, 1.0));
+        }
     });
+    interpolate_rows(table);
+    add_means(table);
     return table;
 }
 
-float facet_reflectance(Vec3f wo, Vec3f m, float eta) {
-    return fresnel_dielectric(clamp_to(glm::dot(wo, m), 0.0f, 1.0f), eta);
-}
-
-/// Cache of tables by eta. A table takes about 33 ms of one thread, and every edit of a material repacks all materials.
+/// Cache of tables by eta. A table takes 10 to 60 ms of one thread, and every edit of a material repacks all materials.
 class TablesByEta {
 public:
     template <class Make>
@@ -97,8 +100,8 @@ public:
     }
 
 private:
-    /// Capacity, about a megabyte: dragging an index of refraction adds a table per step.
-    static constexpr std::size_t kMost = 256;
+    /// Capacity, about twelve megabytes: dragging an index of refraction adds a table per step.
+    static constexpr std::size_t kMost = 128;
 
     std::mutex mutex_;
     std::map<float, std::vector<float>> tables_;
@@ -107,29 +110,22 @@ private:
 }  // namespace
 
 std::vector<float> lossless_albedo() {
-    static const std::vector<float> table = make_table([](float) { return 1.0f; }, mirrored);
+    static const std::vector<float> table = make_table(FacetLight::Mirror, 1.0, [](float) { return 1.0f; });
     return table;
 }
 
 std::vector<float> coat_albedo(float eta) {
     static TablesByEta tables;
     return tables.get(eta, [eta] {
-        return make_table([eta](float cos_theta) { return fresnel_dielectric(cos_theta, eta); },
-                          [eta](const Ggx& ggx, Vec3f wo, Vec3f m) {
-                              return facet_reflectance(wo, m, eta) * mirrored(ggx, wo, m);
-                          });
+        return make_table(FacetLight::Reflected, static_cast<double>(eta),
+                          [eta](float cos_theta) { return fresnel_dielectric(cos_theta, eta); });
     });
 }
 
 std::vector<float> glass_albedo(float eta) {
     static TablesByEta tables;
     return tables.get(eta, [eta] {
-        return make_table([](float) { return 1.0f; },
-                          [eta](const Ggx& ggx, Vec3f wo, Vec3f m) {
-                              const float f = facet_reflectance(wo, m, eta);
-                              const float passed = f < 1.0f ? (1.0f - f) * refracted(ggx, wo, m, eta) : 0.0f;
-                              return f * mirrored(ggx, wo, m) + passed;
-                          });
+        return make_table(FacetLight::Scattered, static_cast<double>(eta), [](float) { return 1.0f; });
     });
 }
 

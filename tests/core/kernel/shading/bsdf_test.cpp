@@ -114,7 +114,8 @@ TEST_CASE("Rough metals are sampled as their density says, finely", "[merge]") {
 TEST_CASE("Rough glass is sampled as its density says, finely", "[merge]") { check_glass(kFineSampling); }
 TEST_CASE("Plastics are sampled as their density says, finely", "[merge]") { check_plastics(kFineSampling); }
 
-// A surface that absorbs nothing reflects all light. The tolerance is the interpolation of tables.
+// A surface that absorbs nothing reflects all light. Seed 5, 2e5 samples, four standard errors and the interpolation of tables, see
+// directional_albedo_test.cpp for what is finer.
 TEST_CASE("White surfaces return all light") {
     for (const SurfaceKind kind : {SurfaceKind::Conductor, SurfaceKind::Plastic})
         for (const float roughness : {0.0f, 0.1f, 0.35f, 0.7f, 1.0f})
@@ -124,7 +125,7 @@ TEST_CASE("White surfaces return all light") {
                 const Moments returned = returned_light(surface, tilted(cos_o), true, 200000);
                 INFO("kind " << static_cast<int>(kind) << ", roughness " << roughness << ", cosine " << cos_o << ": "
                              << returned.mean() << " +- " << returned.standard_error());
-                CHECK(std::fabs(returned.mean() - 1.0) < 0.01 + 4.0 * returned.standard_error());
+                CHECK(std::fabs(returned.mean() - 1.0) < 5e-4 + 4.0 * returned.standard_error());
             }
 }
 // Transmitted radiance is divided by the square of eta, which is undone here.
@@ -139,7 +140,7 @@ TEST_CASE("Clear glass loses no light, rough or smooth") {
                 const Moments returned = returned_light(LobeSurface(lobes), tilted(cos_o), front, 200000);
                 INFO("roughness " << roughness << ", cosine " << cos_o << (front ? ", outside: " : ", inside: ")
                                   << returned.mean() << " +- " << returned.standard_error());
-                CHECK(std::fabs(returned.mean() - 1.0) < 0.01 + 4.0 * returned.standard_error());
+                CHECK(std::fabs(returned.mean() - 1.0) < 5e-4 + 4.0 * returned.standard_error());
             }
 }
 
@@ -147,7 +148,7 @@ TEST_CASE("Clear glass loses no light, rough or smooth") {
 TEST_CASE("Albedo of single scattering by GGX") {
     const std::vector<float> values = lossless_albedo();
     const AlbedoTable table{values.data()};
-    CHECK(table.at(1.0f, 1.0f) == Approx(1.0 - std::log(2.0)).epsilon(3e-3));
+    CHECK(table.at(1.0f, 1.0f) == Approx(1.0 - std::log(2.0)).epsilon(2e-5));
     const float cosines[] = {1.0f, 0.7f, 0.5f, 0.2f};
     const std::pair<float, std::array<double, 4>> rows[] = {{0.1f, {0.9883, 0.9815, 0.9691, 0.9046}},
                                                             {0.3f, {0.8772, 0.8445, 0.8217, 0.8383}},
@@ -156,7 +157,7 @@ TEST_CASE("Albedo of single scattering by GGX") {
     for (const auto& [alpha, expected] : rows)
         for (std::size_t i = 0; i < 4; ++i) {
             INFO("alpha " << alpha << ", cosine " << cosines[i]);
-            CHECK(static_cast<double>(table.at(std::sqrt(alpha), cosines[i])) == Approx(expected[i]).margin(3e-3));
+            CHECK(static_cast<double>(table.at(std::sqrt(alpha), cosines[i])) == Approx(expected[i]).margin(1e-3));
         }
 }
 
