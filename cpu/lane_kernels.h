@@ -38,7 +38,7 @@ struct WideView {
     BvhNode root;           ///< the bounds of the scene
     const WideNode* nodes;  ///< at least one
     const BvhTriangle* triangles;
-    std::uint32_t exceeds_caches;  ///< 1: memory is waited for
+    const LeafBlock* blocks;  ///< nullptr: the scene exceeds the caches, and leaves are its triangles
 };
 
 /// The instances of a scene and their wide hierarchies as plain pointers.

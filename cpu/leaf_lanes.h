@@ -67,6 +67,30 @@ private:
     const float* triangles_[kTestWidth];
 };
 
+/// The same from a block.
+class BlockTriangles {
+public:
+    PL_INLINE BlockTriangles(const LeafBlock* blocks, WideReference leaf, std::uint32_t first)
+        : block_(blocks[leaf.first()]), first_(first) {}
+
+    PL_INLINE void load(std::uint32_t corner, TestFloat (&rows)[4]) const {
+        for (std::uint32_t axis = 0; axis < 3; ++axis)
+            rows[axis] = load_lanes<TestFloat>(block_.corners[corner][axis] + first_);
+        rows[3] = load_lanes<TestFloat>(block_.primitives + first_);
+    }
+
+private:
+    const LeafBlock& block_;
+    std::uint32_t first_;
+};
+
+PL_INLINE LeafTriangles triangles_of(const BvhTriangle* triangles, WideReference leaf, std::uint32_t first) {
+    return {triangles, leaf, first};
+}
+PL_INLINE BlockTriangles triangles_of(const LeafBlock* blocks, WideReference leaf, std::uint32_t first) {
+    return {blocks, leaf, first};
+}
+
 /// The triangles that a ray ignores, see Ray.
 struct ExcludedPair {
     std::uint32_t source, target;
@@ -93,12 +117,13 @@ public:
                  {}},
           first_axis_(group.first_axis[lane]) {}
 
-    /// `placing` takes the rows of corners, and numbers of triangles, from those stored to those of the scene.
-    template <class Placing = AsStored>
-    PL_INLINE bool find(const BvhTriangle* triangles, WideReference leaf, const ExcludedPair& excluded, Hit& best,
+    /// `leaves`: BvhView::triangles or blocks. `placing` takes the rows of corners, and numbers of triangles, from those stored to those of the scene.
+    template <class Stored, class Placing = AsStored>
+    PL_INLINE bool find(const Stored* leaves, WideReference leaf, const ExcludedPair& excluded, Hit& best,
                         const Placing& placing = {}) const {
         for (std::uint32_t first = 0; first < leaf.count(); first += kTestWidth)
-            if (find_in({triangles, leaf, first}, leaf.count() - first, excluded, best, placing)) return true;
+            if (find_in(triangles_of(leaves, leaf, first), leaf.count() - first, excluded, best, placing))
+                return true;
         return false;
     }
 
@@ -110,9 +135,9 @@ private:
                             rows[kCyclic[first_axis_ + 2]]);
     }
 
-    template <class Placing>
-    PL_INLINE bool find_in(const LeafTriangles& triangles, std::uint32_t count, const ExcludedPair& without,
-                           Hit& best, const Placing& placing) const {
+    template <class Triangles, class Placing>
+    PL_INLINE bool find_in(const Triangles& triangles, std::uint32_t count, const ExcludedPair& without, Hit& best,
+                           const Placing& placing) const {
         TestFloat rows[3][4];
         for (std::uint32_t corner = 0; corner < 3; ++corner) {
             triangles.load(corner, rows[corner]);

@@ -133,6 +133,18 @@ private:
     std::vector<std::uint32_t> children_;  ///< of the node that is being filled, in the two-wide hierarchy
 };
 
+LeafBlock block_of(const BvhTriangle* first, std::uint32_t count) {
+    LeafBlock block;
+    for (std::uint32_t i = 0; i < kWideChildren; ++i) {
+        const BvhTriangle& triangle = first[std::min(i, count - 1)];
+        const Vec3f corners[3] = {triangle.p0, triangle.p1, triangle.p2};
+        for (int corner = 0; corner < 3; ++corner)
+            for (int axis = 0; axis < 3; ++axis) block.corners[corner][axis][i] = corners[corner][axis];
+        block.primitives[i] = triangle.primitive;
+    }
+    return block;
+}
+
 }  // namespace
 
 std::vector<WideNode> make_wide_nodes(const BvhView& bvh) {
@@ -144,6 +156,19 @@ std::vector<WideNode> make_wide_nodes(const BvhView& bvh) {
 std::vector<WideNode> make_wide_nodes(Span<const BvhNode> narrow, std::span<const std::uint32_t> roots,
                                       std::uint32_t most) {
     return Widener(narrow, most).make(roots);
+}
+
+std::vector<LeafBlock> make_leaf_blocks(std::span<WideNode> nodes, Span<const BvhTriangle> triangles) {
+    std::vector<LeafBlock> blocks;
+    for (WideNode& node : nodes)
+        for (std::uint32_t i = 0; i < kWideChildren; ++i) {
+            WideReference& child = node.children[i];
+            if (((node.child_bits >> i) & 1u) == 0 || child.count() == 0) continue;
+            const auto number = static_cast<std::uint32_t>(blocks.size());
+            blocks.push_back(block_of(&triangles[child.first()], child.count()));
+            child = {(number << WideReference::kCountBits) | child.count()};
+        }
+    return blocks;
 }
 
 }  // namespace pl

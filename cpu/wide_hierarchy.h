@@ -30,6 +30,12 @@ struct alignas(64) WideNode {
     std::uint32_t child_bits;  ///< bit i is set if there is child i
 };
 
+/// The triangles of a leaf as rows, for hierarchies that stay in the caches: memory for time. Beyond the last one it is repeated.
+struct alignas(64) LeafBlock {
+    float corners[3][3][kWideChildren];  ///< [corner][axis]
+    std::uint32_t primitives[kWideChildren];
+};
+
 /// Entries of the stack of a traversal: every level of the two-wide hierarchy leaves at most the other children behind.
 inline constexpr std::uint32_t kWideStack = (kWideChildren - 1) * kMaxBvhDepth;
 
@@ -41,5 +47,8 @@ std::vector<WideNode> make_wide_nodes(const BvhView& bvh);
 /// children have higher numbers. `most`: entries of a leaf, at most kWideChildren.
 std::vector<WideNode> make_wide_nodes(Span<const BvhNode> narrow, std::span<const std::uint32_t> roots,
                                       std::uint32_t most = kWideChildren);
+
+/// Copies the triangles of all leaves, which then refer to blocks by number.
+std::vector<LeafBlock> make_leaf_blocks(std::span<WideNode> nodes, Span<const BvhTriangle> triangles);
 
 }  // namespace pl

@@ -13,11 +13,10 @@ void WideIntersector::find_occluded(RayBatch& batch, std::uint32_t count) const 
 }
 
 WideView WideIntersector::view() const {
-    const std::size_t all = bytes() + bvh_.triangles.count * sizeof(BvhTriangle);
     return {.root = bvh_.nodes[0],
             .nodes = nodes_.data(),
             .triangles = bvh_.triangles.data,
-            .exceeds_caches = all > cache_bytes_ ? 1u : 0u};
+            .blocks = exceeds_caches_ ? nullptr : blocks_.data()};
 }
 
 }  // namespace pl

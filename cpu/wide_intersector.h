@@ -12,8 +12,8 @@
 
 namespace pl {
 
-/// Satisfies BatchIntersector. Hits are bit-identical to those of BvhIntersector, for every instruction set. Leaves are
-/// the scene's own BvhView::triangles.
+/// Satisfies BatchIntersector. Hits are bit-identical to those of BvhIntersector, for every instruction set. Leaves of large
+/// scenes are the scene's own BvhView::triangles.
 class WideIntersector {
 public:
     /// Hierarchies and triangles up to this size are mostly answered by caches.
@@ -23,24 +23,28 @@ public:
     /// turn.
     explicit WideIntersector(const SceneView& scene, const LaneKernels& kernels = best_lane_kernels(),
                              std::size_t cache_bytes = kCacheBytes)
-        : nodes_(make_wide_nodes(scene.bvh)), bvh_(scene.bvh), kernels_(kernels), cache_bytes_(cache_bytes) {}
+        : nodes_(make_wide_nodes(scene.bvh)), bvh_(scene.bvh), kernels_(kernels),
+          exceeds_caches_(bytes() + bvh_.triangles.count * sizeof(BvhTriangle) > cache_bytes) {
+        if (!exceeds_caches_) blocks_ = make_leaf_blocks(nodes_, bvh_.triangles);
+    }
 
     void find_closest(RayBatch& batch, std::uint32_t count) const;
     void find_occluded(RayBatch& batch, std::uint32_t count) const;
 
     /// See BatchTracer. The nodes stay.
     void move_to(const SceneView& scene) { bvh_ = scene.bvh; }
-    /// Of the nodes, besides the scene's own arrays.
-    std::size_t bytes() const { return nodes_.size() * sizeof(WideNode); }
+    /// Besides the scene's own arrays.
+    std::size_t bytes() const { return nodes_.size() * sizeof(WideNode) + blocks_.size() * sizeof(LeafBlock); }
     std::string_view isa() const { return kernels_.isa; }
 
 private:
     WideView view() const;
 
     std::vector<WideNode> nodes_;
+    std::vector<LeafBlock> blocks_;  ///< unless the scene exceeds the caches
     BvhView bvh_;
     LaneKernels kernels_;
-    std::size_t cache_bytes_;
+    bool exceeds_caches_;
 };
 static_assert(BatchIntersector<WideIntersector>);
 

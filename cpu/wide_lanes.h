@@ -31,9 +31,11 @@ public:
     PL_INLINE const Hit& best() const { return best_; }
 
     PL_INLINE void descend(const WideView& scene) { walk_.descend(scene.nodes, ray_, best_.t); }
-    PL_INLINE void test_leaf(const WideView& scene) {
+    /// `leaves`: the scene's triangles or blocks.
+    template <class Stored>
+    PL_INLINE void test_leaf(const Stored* leaves) {
         const LeafTest<kAny> test(*ray_.group, ray_.lane);
-        if (test.find(scene.triangles, walk_.at(), excluded_, best_))
+        if (test.find(leaves, walk_.at(), excluded_, best_))
             walk_.stop();
         else
             walk_.leave(best_.t);
@@ -73,7 +75,7 @@ PL_INLINE void trace_one_by_one(const WideView& scene, const RayGroup* rays, std
             way.start(group, prepared, lane, stack);
             while (!way.is_over()) {
                 if (way.is_at_leaf())
-                    way.test_leaf(scene);
+                    way.test_leaf(scene.blocks);
                 else
                     way.descend(scene);
             }
@@ -102,7 +104,7 @@ public:
                 go_on(slot);
             });
             for_each(leaves_, [&](std::uint32_t slot) {
-                ways_[slot].test_leaf(scene_);
+                ways_[slot].test_leaf(scene_.triangles);
                 go_on(slot);
             });
             for_each(over_, [&](std::uint32_t slot) {
@@ -156,7 +158,7 @@ private:
 
 template <bool kAny, class Finish>
 PL_INLINE void trace_all(const WideView& scene, const RayGroup* rays, std::uint32_t count, Finish&& finish) {
-    if (scene.exceeds_caches == 0) return trace_one_by_one<kAny>(scene, rays, count, finish);
+    if (scene.blocks != nullptr) return trace_one_by_one<kAny>(scene, rays, count, finish);
     using Flight = RaysInFlight<kAny, std::remove_reference_t<Finish>>;
     Flight flight(scene, finish);
     for (std::uint32_t first = 0; first < count; first += Flight::kMostRays)
