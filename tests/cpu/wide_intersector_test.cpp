@@ -138,6 +138,35 @@ TEST_CASE("Every triangle hangs once in the wide hierarchy, inside the boxes abo
     }
 }
 
+TEST_CASE("Blocks of leaves hold their triangles in order, the last one repeated") {
+    for (const NamedScene& named : hard_scenes()) {
+        INFO(named.name);
+        const SceneView scene = named.scene.view();
+        const std::vector<WideNode> before = make_wide_nodes(scene.bvh);
+        std::vector<WideNode> nodes = before;
+        const std::vector<LeafBlock> blocks = make_leaf_blocks(nodes, scene.bvh.triangles);
+        std::size_t leaves = 0;
+        for (std::size_t n = 0; n < nodes.size(); ++n)
+            for (std::uint32_t i = 0; i < kWideChildren; ++i) {
+                const WideReference leaf = before[n].children[i];
+                if (((before[n].child_bits >> i) & 1u) == 0 || leaf.count() == 0) continue;
+                REQUIRE(nodes[n].children[i].first() == leaves);
+                REQUIRE(nodes[n].children[i].count() == leaf.count());
+                const LeafBlock& block = blocks[leaves++];
+                for (std::uint32_t lane = 0; lane < kWideChildren; ++lane) {
+                    const BvhTriangle& t = scene.bvh.triangles[leaf.first() + std::min(lane, leaf.count() - 1)];
+                    REQUIRE(block.primitives[lane] == t.primitive);
+                    for (int axis = 0; axis < 3; ++axis) {
+                        REQUIRE(block.corners[0][axis][lane] == t.p0[axis]);
+                        REQUIRE(block.corners[1][axis][lane] == t.p1[axis]);
+                        REQUIRE(block.corners[2][axis][lane] == t.p2[axis]);
+                    }
+                }
+            }
+        CHECK(leaves == blocks.size());
+    }
+}
+
 TEST_CASE("A wide node has more than five children in the mean") {
     const HostScene scene = scene_of([](auto& s) { add_spiky_sphere(s, 64, 64, 1.0f, 1.5f, 3); });
     const std::vector<WideNode> nodes = make_wide_nodes(scene.view().bvh);
