@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "core/scene/instances.h"
 #include "core/scene/pack_scene.h"
 
 namespace pl {
@@ -110,7 +111,7 @@ void ViewedScene::adopt(const LoadOrder& order, std::shared_ptr<const SceneDescr
     recent_.add(lasting(name_));
     camera_.open(scene->camera, bounds_of(*scene).diagonal(), order.reason == LoadReason::Reload);
     for (const std::string& warning : scene->warnings) messages_.say(MessageLevel::Warning, warning);
-    messages_.say(MessageLevel::Info, fmt::format("opened {}: {} triangles", name_, scene->triangles.size()));
+    messages_.say(MessageLevel::Info, fmt::format("opened {}: {} triangles", name_, shown_triangles(*scene)));
     link_.worker().submit_together({EditScene{std::move(scene)}, EditCamera{camera_.camera()}});
 }
 

@@ -1,4 +1,5 @@
 #include "ui/model/viewer_model.h"
+#include "core/scene/instances.h"
 #include "ui/draw/words.h"
 
 #include <fmt/format.h>
@@ -39,7 +40,7 @@ ViewerModel::ViewerModel(const ViewerOptions& options, std::shared_ptr<const Sce
     if (options.field) link_.worker().submit(EditLearned{options.field});
     for (const std::string& warning : scene->warnings) messages_.say(MessageLevel::Warning, warning);
     messages_.note(MessageLevel::Info,
-                   fmt::format("opened {}: {} triangles", scene_.name(), scene->triangles.size()));
+                   fmt::format("opened {}: {} triangles", scene_.name(), shown_triangles(*scene)));
 }
 
 ViewerModel::~ViewerModel() {

@@ -106,7 +106,10 @@ void draw_field(const std::optional<FieldStatus>& field) {
 void draw_scene(const PublishedFrame& frame, const ViewerModel& model) {
     if (!section("Scene and kernel", true)) return;
     text_row("Scene", model.scene().name(), frame.description->source.string().c_str());
-    text_row("Triangles", count_text(frame.description->triangles.size()));
+    text_row("Triangles", count_text(frame.description->triangles.size()), "Those that are stored.");
+    if (!frame.description->instances.empty())
+        text_row("Instances", count_text(frame.description->instances.size()),
+                 "Each shows a mesh that is stored once.");
     text_row("Lights", count_text(frame.scene->lights.size()), "Triangles that emit.");
     text_row("Materials", count_text(frame.description->materials.size()));
     std::string effects;
