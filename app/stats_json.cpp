@@ -4,6 +4,7 @@
 
 #include "app/diagnostics_file.h"
 #include "app/make_backend.h"
+#include "app/option_parsers.h"
 #include "core/bench/clocks_json.h"
 #include "core/scene/default_light.h"
 #include "core/scene/needed_effects.h"

@@ -7,6 +7,7 @@
 
 #include "app/make_backend.h"
 #include "app/open_scene.h"
+#include "app/option_parsers.h"
 #include "core/base/error.h"
 #include "core/fields/field_shape.h"
 

@@ -5,6 +5,7 @@
 
 #include "core/scene/instance_boxes.h"
 #include "core/scene/instances.h"
+#include "core/scene/pack_scene.h"
 
 namespace pl {
 namespace {
