@@ -146,11 +146,7 @@ PL_INLINE void closest_instances(const WideInstances& scene, const RayGroup* ray
     for_rays<false>(scene, rays, count, [&](std::uint32_t group, std::uint32_t lane, InstanceTraversal<false>& rest) {
         HitGroup& to = hits[group];
         Hit hit{to.t[lane], to.primitive[lane], to.b1[lane], to.b2[lane]};
-        if (!rest.find(hit)) return;
-        to.t[lane] = hit.t;
-        to.primitive[lane] = hit.primitive;
-        to.b1[lane] = hit.b1;
-        to.b2[lane] = hit.b2;
+        if (rest.find(hit)) store_hit(hit, to, lane);
     });
 }
 

@@ -91,6 +91,14 @@ PL_INLINE BlockTriangles triangles_of(const LeafBlock* blocks, WideReference lea
     return {blocks, leaf, first};
 }
 
+/// HitGroup::set(), inlined.
+PL_INLINE void store_hit(const Hit& hit, HitGroup& group, std::uint32_t lane) {
+    group.t[lane] = hit.t;
+    group.primitive[lane] = hit.primitive;
+    group.b1[lane] = hit.b1;
+    group.b2[lane] = hit.b2;
+}
+
 /// The triangles that a ray ignores, see Ray.
 struct ExcludedPair {
     std::uint32_t source, target;

@@ -167,12 +167,7 @@ PL_INLINE void trace_all(const WideView& scene, const RayGroup* rays, std::uint3
 
 PL_INLINE void closest_in_wide(const WideView& scene, const RayGroup* rays, HitGroup* hits, std::uint32_t count) {
     trace_all<false>(scene, rays, count, [hits](std::uint32_t index, const Hit& hit) {
-        HitGroup& group = hits[index / kGroupSize];
-        const std::uint32_t lane = index % kGroupSize;
-        group.t[lane] = hit.t;
-        group.primitive[lane] = hit.primitive;
-        group.b1[lane] = hit.b1;
-        group.b2[lane] = hit.b2;
+        store_hit(hit, hits[index / kGroupSize], index % kGroupSize);
     });
 }
 

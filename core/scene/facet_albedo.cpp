@@ -12,6 +12,8 @@
 #include <array>
 #include <cmath>
 
+#include <glm/gtc/constants.hpp>
+
 #include "core/scene/piecewise_rule.h"
 
 namespace pl {
@@ -47,7 +49,7 @@ struct FacetInterface {
 
 /// Cosine of angles in [0, pi], by a Taylor series around the middle.
 float series_cosine(float angle) {
-    const float x = static_cast<float>(0.5 * kFlatAngle) - angle;
+    const float x = static_cast<float>(0.5 * glm::pi<double>()) - angle;
     const float x2 = x * x;
     const float tail = 1.0f / 362880.0f - x2 * (1.0f / 39916800.0f);
     return x * (1.0f - x2 * (1.0f / 6.0f - x2 * (1.0f / 120.0f - x2 * (1.0f / 5040.0f - x2 * tail))));
@@ -89,7 +91,7 @@ private:
 
         double azimuth(double h_v) const {
             const double scaled = h_v - middle;
-            if (!(std::fabs(scaled) < reach)) return scaled > 0.0 ? 0.0 : kFlatAngle;
+            if (!(std::fabs(scaled) < reach)) return scaled > 0.0 ? 0.0 : glm::pi<double>();
             return std::acos(scaled / reach);
         }
     };
@@ -164,10 +166,10 @@ private:
         const double h_z = height + v_z_;
         const double radius = std::sqrt(std::max(1.0 - height * height, 0.0));
         const Ring ring{h_z, 1.0 + v_z_ * height, v_x_ * radius, (1.0 - alpha2_) * h_z * h_z};
-        Pieces azimuths(0.0, kFlatAngle);
+        Pieces azimuths(0.0, glm::pi<double>());
         const double mirrored = ring.azimuth(mirror_limit(ring));
         azimuths.cut(mirrored);
-        double refracted = refracts_ ? kFlatAngle : 0.0;
+        double refracted = refracts_ ? glm::pi<double>() : 0.0;
         if (may_reflect_totally_) {
             const double total = total_limit(ring);
             azimuths.cut(ring.azimuth(total));
@@ -181,7 +183,7 @@ private:
             sum += azimuths.length(piece) *
                    arc_mean(ring, rule, begin, azimuths.length(piece), begin < mirrored, begin < refracted);
         }
-        return sum / kFlatAngle;
+        return sum / glm::pi<double>();
     }
     /// m is (alpha h.x, alpha h.y, h.z) over its length, whose square is 2 alpha^2 h.v + (1 - alpha^2) h.z^2 because h^2 is 2 h.v.
     double arc_mean(const Ring& ring, const QuadratureRule<kAzimuths>& rule, double begin, double length,

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include <glm/gtc/constants.hpp>
+
 namespace pl {
 
 /// Nodes and weights on [0, 1].
@@ -12,8 +14,6 @@ template <std::size_t N>
 struct QuadratureRule {
     std::array<double, N> at, weight;
 };
-
-inline constexpr double kFlatAngle = 3.14159265358979323846;
 
 /// A root of a Legendre polynomial, with the derivative there.
 struct LegendreRoot {
@@ -23,7 +23,7 @@ struct LegendreRoot {
 /// Root `i` of the polynomial of degree `n`, by Newton's method.   [Press et al., Numerical Recipes, 3rd ed., 4.6]
 inline LegendreRoot legendre_root(std::size_t n, std::size_t i) {
     const auto degree = static_cast<double>(n);
-    LegendreRoot root{.x = std::cos(kFlatAngle * (static_cast<double>(i) + 0.75) / (degree + 0.5))};
+    LegendreRoot root{.x = std::cos(glm::pi<double>() * (static_cast<double>(i) + 0.75) / (degree + 0.5))};
     for (int step = 0; step < 6; ++step) {
         double below = 0.0;
         double value = 1.0;
