@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "tests/session/interruption.h"
+#include "tests/session/stopping_backend.h"
 #include "tests/support/catch.hpp"
 #include "tests/support/scenes/shipped_scenes.h"
 #include "tests/support/session/same_bits.h"
@@ -28,13 +28,21 @@ std::uint64_t visits_of(const HostTables& tables) {
 
 void control(Session& session, LearningControl control) { session.apply(EditLearning{kLearner, control}); }
 
-/// Renders until a pass is under way.
-void begin_pass(Session& session) {
-    for (int i = 0; !pass_is_partial(session); ++i) {
-        REQUIRE(i < 1000);
-        advance_interrupted(session, 0.2f + 0.1f * static_cast<float>(i % 8));
+/// A learner with a pass under way behind `complete` ones.
+struct LearnerWithinPass {
+    static constexpr std::uint32_t kPathsOfPass = 100;
+
+    std::shared_ptr<StoppingBackend> backend = std::make_shared<StoppingBackend>();
+    Session session{backend, std::make_shared<const SceneDescription>(shipped_scene("door")),
+                    small_settings(shipped_scene("door"), {kLearner, false})};
+
+    explicit LearnerWithinPass(std::uint32_t complete) {
+        render_passes(session, complete);
+        backend->stops_behind = kPathsOfPass;
+        REQUIRE(session.advance(slot_of(session)) == Progress::Stopped);
+        REQUIRE(session.passes(slot_of(session)) == complete);
     }
-}
+};
 
 /// The volume with the most learned light.
 std::int32_t brightest_volume(const Session& session) {
@@ -112,21 +120,40 @@ TEST_CASE("a field frozen by hand is that of a run with as many passes of learni
 }
 
 TEST_CASE("a freeze within a pass waits for its end") {
-    Session session = learner();
-    render_passes(session, 3);
-    begin_pass(session);
-    const std::uint32_t complete = session.passes(slot_of(session));
+    LearnerWithinPass learner_within_pass(3);
+    Session& session = learner_within_pass.session;
     control(session, LearningControl::Freeze);
     CHECK_FALSE(session.field_status(kLearner)->is_frozen);
     render_passes(session, 1);
     CHECK(session.field_status(kLearner)->is_frozen);
-    CHECK(session.field_status(kLearner)->passes == complete + 1);
+    CHECK(session.field_status(kLearner)->passes == 4);
     render_passes(session, 2);
     Session whole = learner();
-    render_passes(whole, complete);
+    render_passes(whole, 3);
     control(whole, LearningControl::Step);  // the last pass ends with an update here, too
     render_passes(whole, 1);
     CHECK(same_bits(tables_of(session), tables_of(whole)));
+}
+
+TEST_CASE("a freeze within a pass that does not train is one behind the last pass that does") {
+    Session rare = learner();
+    render_passes(rare, 16);
+    std::uint64_t records = 0;
+    while (rare.field_status(kLearner)->records > records) {  // until a well-trained field learns from no pass
+        REQUIRE(rare.passes(slot_of(rare)) < 200);
+        records = rare.field_status(kLearner)->records;
+        render_passes(rare, 1);
+    }
+    const std::uint32_t complete = rare.passes(slot_of(rare)) - 1;
+
+    LearnerWithinPass learner_within_pass(complete);
+    Session& session = learner_within_pass.session;
+    control(session, LearningControl::Freeze);
+    CHECK(session.field_status(kLearner)->is_frozen);
+    const HostTables frozen = tables_of(session);
+    render_passes(session, 20);
+    CHECK(session.field_status(kLearner)->records == records);
+    CHECK(same_bits(tables_of(session), frozen));
 }
 
 TEST_CASE("a step learns from one pass, and from no training sample of the frozen ones before it") {
@@ -181,10 +208,9 @@ TEST_CASE("a forgotten volume is as a new one, and all others keep their bits") 
 }
 
 TEST_CASE("a volume is forgotten between passes") {
-    Session session = learner();
-    render_passes(session, 6);
+    LearnerWithinPass learner_within_pass(6);
+    Session& session = learner_within_pass.session;
     const std::int32_t volume = brightest_volume(session);
-    begin_pass(session);
     session.apply(EditForgetVolume{kLearner, volume});
     CHECK(radiance_of(session, volume) > 0.0f);
     control(session, LearningControl::Freeze);
