@@ -186,6 +186,20 @@ struct LightRows {
     float power;  ///< SceneView::light_power
 };
 
+/// The far lights of a scene.
+struct FarRows {
+    const FarLights* lights;
+    float probability;  ///< SceneView::far_probability
+};
+
+/// Samples of far lights, one for each of a VertexGroup: members as in FarSample. Only of groups in which a lane chooses far lights.
+struct alignas(64) FarSampleGroup {
+    VectorGroup wi, radiance;
+    float pdf_sa[kGroupSize] = {};
+
+    FarSample get(std::uint32_t lane) const { return {wi.get(lane), radiance.get(lane), pdf_sa[lane]}; }
+};
+
 /// A light tree as plain pointers, and the choices among its clusters that were learned.
 struct LightTreeRows {
     const LightNode* nodes;
@@ -288,6 +302,9 @@ struct LaneKernels {
     void (*find_light_densities)(const LightTreeRows& tree, LightHitGroup* hits, std::uint32_t groups);
     void (*sample_chosen_lights)(const LightRows& lights, const VertexGroup* vertices, LightSampleGroup* samples,
                                  std::uint32_t groups);
+    /// Samples far lights for the vertices that choose them, and keeps the samples in `far`.
+    void (*sample_far_lights)(const FarRows& lights, const VertexGroup* vertices, FarSampleGroup* far,
+                              LightSampleGroup* samples, std::uint32_t groups);
     /// Weighs the light samples by multiple importance sampling, with the densities in `directions`. Clears pdf_sa of those that
     /// cannot contribute.
     void (*weigh_lights)(const VertexGroup* vertices, const DirectionGroup* directions, LightSampleGroup* samples,

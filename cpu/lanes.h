@@ -148,10 +148,21 @@ struct Lanes {
         return std::bit_cast<Real>((std::bit_cast<LaneUint>(size) & ~kSign) |
                                    (std::bit_cast<LaneUint>(sign) & kSign));
     }
+    static PL_INLINE Real floor(const Real& x) {
+#if defined(__AVX512F__)
+        return std::bit_cast<Real>(
+            _mm512_maskz_roundscale_ps(0xffff, std::bit_cast<__m512>(x), _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC));
+#elif defined(__AVX2__)
+        return std::bit_cast<Real>(_mm256_floor_ps(std::bit_cast<__m256>(x)));
+#else
+        return to_real(floor_of<Lanes>(x));
+#endif
+    }
     static PL_INLINE Int truncate(const Real& x) { return __builtin_convertvector(x, Int); }
     static PL_INLINE Real to_real(const Int& i) { return __builtin_convertvector(i, Real); }
     static PL_INLINE Real count_to_real(const Uint& i) { return __builtin_convertvector(i, Real); }
     static PL_INLINE Int to_int(const Uint& i) { return std::bit_cast<Int>(i); }
+    static PL_INLINE Uint to_count(const Int& i) { return std::bit_cast<Uint>(i); }
     static PL_INLINE Int bits_of(const Real& x) { return std::bit_cast<Int>(x); }
     static PL_INLINE Real from_bits(const Int& bits) { return std::bit_cast<Real>(bits); }
     static PL_INLINE Real power(const Real& x, float p) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "cpu/dense_lanes.h"
+#include "cpu/far_lanes.h"
 #include "cpu/guided_lanes.h"
 #include "cpu/instance_lanes.h"
 #include "cpu/light_lanes.h"
@@ -113,6 +114,13 @@ void sample_chosen_lights(const LightRows& lights, const VertexGroup* vertices, 
                     [&](const LightLanes& lanes, std::uint32_t group) { lanes.sample_chosen(samples[group]); });
 }
 
+void sample_far_lights(const FarRows& lights, const VertexGroup* vertices, FarSampleGroup* far,
+                       LightSampleGroup* samples, std::uint32_t groups) {
+    for (std::uint32_t group = 0; group < groups; ++group)
+        for (std::uint32_t first = 0; first < kGroupSize; first += kLaneWidth)
+            FarLightLanes(lights, vertices[group], first).sample(far[group], samples[group]);
+}
+
 void weigh_lights(const VertexGroup* vertices, const DirectionGroup* directions, LightSampleGroup* samples,
                   std::uint32_t groups) {
     for_vertex_lanes(vertices, groups, [&](const VertexLanes& lanes, std::uint32_t group) {
@@ -153,6 +161,7 @@ constexpr LaneKernels lane_kernels_named(const char* name) {
             choose_by_tree,
             find_light_densities,
             sample_chosen_lights,
+            sample_far_lights,
             weigh_lights,
             scatter,
             has_samples,

@@ -31,6 +31,12 @@ private:
     const M& method_;
 };
 
+/// Samples of far lights for the vertices of a block.
+struct FarBlock {
+    FarSampleGroup groups[kBlockGroups];
+};
+struct NoFarBlock {};
+
 /// A light sample for every vertex of a block: bit-identical to sample_light() and weigh_light().
 template <FeatureSet F, Method M>
 class LightBlock {
@@ -42,12 +48,15 @@ public:
 
     void sample(const VertexBlock<F, M>& block) {
         if (lanes_pay()) sample_in_lanes(block);
+        if (far_lights_are_in_lanes()) sample_far_in_lanes(block);
         for (std::uint32_t i = 0; i < block.count(); ++i) {
             if (block.is_layered(i)) continue;
-            if (!chooses_in_lanes(block, i) || group(i).is_near[i % kGroupSize] != 0)
-                sample_lambert(block, i);
-            else if constexpr (F.has(Feature::Textures) || F.has(Feature::CutOuts))
-                look_up_emission(i);
+            if (!is_far_in_lanes(block, i)) {
+                if (!lanes_pay() || group(i).is_near[i % kGroupSize] != 0)
+                    sample_lambert(block, i);
+                else if constexpr (F.has(Feature::Textures) || F.has(Feature::CutOuts))
+                    look_up_emission(i);
+            }
             if constexpr (kTracksMedium<F>) absorb(block, i);
         }
     }
@@ -121,18 +130,36 @@ private:
         }
         kernels_.sample_lights(lights, block.groups(), samples_, block.group_count());
     }
-    /// Whether the sample of vertex i is of the emissive triangle that was chosen in lanes.
-    bool chooses_in_lanes([[maybe_unused]] const VertexBlock<F, M>& block, [[maybe_unused]] std::uint32_t i) const {
-        if constexpr (F.has(Feature::EnvironmentMap)) {
-            if (block.light_numbers(i).w < context_.scene.far_probability) return false;
+    bool far_lights_are_in_lanes() const {
+        [[maybe_unused]] const SceneView& scene = context_.scene;
+        if constexpr (F.has(Feature::DeltaLights)) {
+            if (scene.delta_probability > 0.0f) return false;
         }
-        return lanes_pay();
+        if constexpr (F.has(Feature::EnvironmentMap)) return scene.far_probability > 0.0f;
+        return false;
+    }
+    void sample_far_in_lanes([[maybe_unused]] const VertexBlock<F, M>& block) {
+        if constexpr (F.has(Feature::EnvironmentMap)) {
+            const SceneView& scene = context_.scene;
+            kernels_.sample_far_lights({&scene.far_lights, scene.far_probability}, block.groups(), far_.groups,
+                                       samples_, block.group_count());
+        }
+    }
+    /// Whether the sample of vertex i is that of the far lights that was made in lanes.
+    bool is_far_in_lanes([[maybe_unused]] const VertexBlock<F, M>& block, [[maybe_unused]] std::uint32_t i) const {
+        if constexpr (F.has(Feature::EnvironmentMap))
+            return far_lights_are_in_lanes() && block.light_numbers(i).w < context_.scene.far_probability;
+        return false;
     }
     template <class B>
     DirectLight sample_alone(const VertexBlock<F, M>& block, std::uint32_t i, const SurfacePoint& surface,
                              const B& bsdf) const {
+        if constexpr (F.has(Feature::EnvironmentMap)) {
+            if (is_far_in_lanes(block, i))
+                return far_light_from(context_.scene, surface, bsdf, far_.groups[i / kGroupSize].get(i % kGroupSize));
+        }
         const Vec4f u = block.light_numbers(i);
-        if (!chooses_in_lanes(block, i))
+        if (!lanes_pay())
             return sample_direct_light<F>(context_.scene, surface, bsdf, u,
                                           learned_lights<F>(context_.method, block.vertex(i)).learned());
         const ChosenLight chosen{group(i).light[i % kGroupSize], group(i).probability[i % kGroupSize]};
@@ -182,6 +209,7 @@ private:
     LaneKernels kernels_;
     LightSampleGroup samples_[kBlockGroups];
     LearnedLightsBlock<F, M> learned_;
+    [[no_unique_address]] std::conditional_t<F.has(Feature::EnvironmentMap), FarBlock, NoFarBlock> far_;
 };
 template <FeatureSet F, Method M>
 requires(!F.has(Feature::NextEventEstimation)) class LightBlock<F, M> {

@@ -50,6 +50,7 @@ struct Comparison {
     int lit = 0;    ///< vertices whose sample can contribute
     int near = 0;   ///< vertices whose light may be sampled by solid angle
     int delta = 0;  ///< vertices whose sample of a delta light can contribute
+    int far = 0;    ///< vertices whose sample of a far light can contribute; in rooms without directional lights
 };
 
 /// In rooms without an environment.
@@ -84,6 +85,7 @@ Comparison compare(const Context& context, const LaneKernels& kernels) {
             result.different += same_light(*lights, i, points[i], expected[i]) ? 0 : 1;
             result.lit += expected[i].wanted ? 1 : 0;
             result.delta += expected[i].wanted && is_of_delta_light(expected[i].ray) ? 1 : 0;
+            result.far += expected[i].wanted && expected[i].ray.target == kNoPrimitive ? 1 : 0;
             result.near += lights->groups()[i / kGroupSize].is_near[i % kGroupSize] != 0 ? 1 : 0;
         }
     }
@@ -129,6 +131,98 @@ TEST_CASE("Delta lights beside those in the lanes are sampled as by one path alo
                     CHECK(result.lit > result.delta + 10);
             }
         }
+    }
+}
+
+TEST_CASE("Far lights are sampled in lanes as by one path alone, beside all other lights") {
+    struct Sky {
+        const char* name;
+        EnvironmentMapDescription map;
+        SunDescription sun;
+    };
+    const Sky skies[] = {{"map", spotted_map(), {}},
+                         {"sun", {}, wide_sun()},
+                         {"map and sun", spotted_map(), wide_sun()},
+                         {"one texel", {.width = 1, .height = 1, .texels = {glm::vec3{1.0f}}}, {}}};
+    for (const Sky& sky : skies)
+        for (const int lights : {0, 3}) {
+            SceneDescription description = describe_room(lights);
+            description.environment_map = sky.map;
+            description.sun = sky.sun;
+            const HostScene scene = pack_scene(description);
+            const SceneView view = scene.view();
+            REQUIRE(view.far_probability > 0.0f);
+            const KeepsEstimates method;
+            const PathSettings settings{.next_event = 1};
+            const Context context{view, method, settings};
+            for (const LaneKernels& kernels : usable_lane_kernels()) {
+                INFO(kernels.isa << ", " << sky.name << ", " << lights << " lights");
+                const Comparison result = compare(context, kernels);
+                CHECK(result.different == 0);
+                CHECK(result.far > 300);
+                if (lights == 0)
+                    CHECK(result.lit == result.far);
+                else
+                    CHECK(result.lit > result.far + 50);
+            }
+        }
+}
+
+TEST_CASE("Delta lights leave far lights to one path alone") {
+    SceneDescription description = describe_room(3, delta_lights());
+    description.environment_map = spotted_map();
+    const HostScene scene = pack_scene(description);
+    const SceneView view = scene.view();
+    const KeepsEstimates method;
+    const PathSettings settings{.next_event = 1};
+    for (const LaneKernels& kernels : usable_lane_kernels()) {
+        const Comparison result = compare({view, method, settings}, kernels);
+        CHECK(result.different == 0);
+        CHECK(result.far > 100);
+    }
+}
+
+TEST_CASE("A far light at a surface with lobes is the sample that was made in lanes") {
+    constexpr FeatureSet kLobes = kLights.with(Feature::Plastic);
+    SceneDescription description = describe_room(3);
+    description.materials[0].kind = SurfaceKind::Plastic;
+    description.environment_map = spotted_map();
+    description.sun = wide_sun();
+    const HostScene scene = pack_scene(description);
+    const SceneView view = scene.view();
+    const DefaultMethod method;
+    const PathSettings settings{.next_event = 1};
+    const PathContext<DefaultMethod> context{view, method, settings};
+    const LightTable table(view);
+    for (const LaneKernels& kernels : usable_lane_kernels()) {
+        const auto block = std::make_unique<VertexBlock<kLobes, DefaultMethod>>();
+        const auto lights = std::make_unique<LightBlock<kLobes, DefaultMethod>>(context, &table, kernels);
+        Uniforms random(9);
+        int far = 0;
+        for (int round = 0; round < 20; ++round) {
+            block->clear();
+            std::vector<UnweightedLight> expected;
+            for (std::uint32_t i = 0; i < kPathBlock; ++i) {
+                const SurfacePoint surface = random_point(view, random).surface;
+                const Vec4f u = random_numbers(random);
+                ScatterPoint<kLobes, DefaultMethod>& point = block->next_layered();
+                point = {surface, make_bsdf<kLobes>(view, surface, Vec3f{1.0f / 3.0f}, surface.geometric_normal)};
+                expected.push_back(sample_light(context, point, u, {}));
+                block->add(i, point, {}, {.light = u});
+            }
+            lights->sample(*block);
+            for (std::uint32_t i = 0; i < kPathBlock; ++i) {
+                if (!block->is_layered(i)) continue;
+                const UnweightedLight light = lights->sample_layered(*block, i);
+                REQUIRE(light.pdf_sa == expected[i].pdf_sa);
+                if (!(light.pdf_sa > 0.0f)) continue;
+                REQUIRE(same_ray(light.ray, expected[i].ray));
+                REQUIRE(same_bits(light.contribution, expected[i].contribution));
+                far += light.ray.target == kNoPrimitive ? 1 : 0;
+            }
+        }
+        INFO(kernels.isa);
+        CHECK(far > 200);
     }
 }
 

@@ -12,7 +12,8 @@
 
 namespace pl::test {
 
-inline constexpr FeatureSet kRoomEffects = features(Feature::NextEventEstimation, Feature::DeltaLights);
+inline constexpr FeatureSet kRoomEffects =
+    features(Feature::NextEventEstimation, Feature::DeltaLights, Feature::EnvironmentMap);
 
 /// A vertex at a Lambert reflector.
 struct RoomPoint {
@@ -30,8 +31,8 @@ inline std::vector<PunctualLightDescription> delta_lights() {
 
 /// A room with triangles that shine: small, large, edge-on, and one without area.
 /// `third`: material number 2, of no triangle.
-inline HostScene room_of_lights(int lights, std::vector<PunctualLightDescription> without_extent = {},
-                                MaterialDescription third = {}) {
+inline SceneDescription describe_room(int lights, std::vector<PunctualLightDescription> without_extent = {},
+                                      MaterialDescription third = {}) {
     SceneDescription scene;
     scene.punctual_lights = std::move(without_extent);
     scene.materials = {gray(), gray(0.3f), std::move(third)};
@@ -44,8 +45,24 @@ inline HostScene room_of_lights(int lights, std::vector<PunctualLightDescription
         const Vec3f last = i == 2 ? corner : corner + size * random.direction();
         add_triangle(scene, corner, corner + size * random.direction(), last, 1);
     }
-    return pack_scene(scene);
+    return scene;
 }
+inline HostScene room_of_lights(int lights, std::vector<PunctualLightDescription> without_extent = {},
+                                const MaterialDescription& third = {}) {
+    return pack_scene(describe_room(lights, std::move(without_extent), third));
+}
+
+/// An environment map with dark texels and bright ones, of a size that is no power of two, and a sun.
+inline EnvironmentMapDescription spotted_map() {
+    EnvironmentMapDescription map{.width = 21, .height = 11, .rotation_deg = 77.0f};
+    Uniforms random(4);
+    for (int i = 0; i < 21 * 11; ++i) {
+        const Vec3f radiance = random.cube(0.0f, 9.0f);
+        map.texels.push_back(random.below(3) == 0 ? glm::vec3{radiance.x, radiance.y, radiance.z} : glm::vec3{0.0f});
+    }
+    return map;
+}
+inline SunDescription wide_sun() { return {.direction = {1, 2, -1}, .radiance = {30, 20, 10}, .angle_deg = 20.0f}; }
 
 /// A point on a surface, often on a light, seen from a random direction.
 inline RoomPoint random_point(const SceneView& scene, Uniforms& random) {

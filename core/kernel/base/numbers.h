@@ -45,10 +45,12 @@ struct One {
     static PL_INLINE Real sqrt(Real x) { return std::sqrt(x); }
     static PL_INLINE Real magnitude(Real x) { return std::fabs(x); }
     static PL_INLINE Real copy_sign(Real size, Real sign) { return std::copysign(size, sign); }
+    static PL_INLINE Real floor(Real x) { return std::floor(x); }
     static PL_INLINE Int truncate(Real x) { return static_cast<Int>(x); }
     static PL_INLINE Real to_real(Int i) { return static_cast<Real>(i); }
     static PL_INLINE Real count_to_real(Uint i) { return static_cast<Real>(i); }
     static PL_INLINE Int to_int(Uint i) { return static_cast<Int>(i); }
+    static PL_INLINE Uint to_count(Int i) { return static_cast<Uint>(i); }
     static PL_INLINE Int bits_of(Real x) { return std::bit_cast<Int>(x); }
     static PL_INLINE Real from_bits(Int bits) { return std::bit_cast<Real>(bits); }
     static PL_INLINE Real power(Real x, float p) { return pl::power(x, p); }
@@ -121,6 +123,19 @@ PL_INLINE typename N::Real dot(const Real3<N>& a, const Real3<N>& b) {
 template <class N>
 PL_INLINE Real3<N> cross(const Real3<N>& a, const Real3<N>& b) {
     return {a.y * b.z - b.y * a.z, a.z * b.x - b.z * a.x, a.x * b.y - b.x * a.y};
+}
+
+/// Entry of an array of vectors. `index` is below 2^31 / 3.
+template <class N>
+PL_INLINE Real3<N> load_vector(const Vec3f* vectors, const typename N::Int& index) {
+    const auto* numbers = static_cast<const float*>(static_cast<const void*>(vectors));
+    const typename N::Int first = 3 * index;
+    return {N::load(numbers, first), N::load(numbers, first + 1), N::load(numbers, first + 2)};
+}
+/// The same vector in all lanes.
+template <class N>
+PL_INLINE Real3<N> constant_vector(Vec3f v) {
+    return {N::constant(v.x), N::constant(v.y), N::constant(v.z)};
 }
 
 template <class N>

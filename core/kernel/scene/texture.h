@@ -91,8 +91,8 @@ PL_HD inline float into_unit(float x, bool repeats) {
 PL_HD inline Vec4f sample_image(const Textures& textures, std::uint32_t index, Vec2f uv) {
     const Image& image = textures.images[index];
     const bool repeats = image.repeats != 0;
-    const Taps x = taps_at(into_unit(uv.x, repeats), image.width, repeats);
-    const Taps y = taps_at(1.0f - into_unit(uv.y, repeats), image.height, repeats);
+    const Taps x = taps_at<One>(into_unit(uv.x, repeats), image.width, repeats);
+    const Taps y = taps_at<One>(1.0f - into_unit(uv.y, repeats), image.height, repeats);
     const auto at = [&](std::uint32_t column, std::uint32_t row) {
         return unpack(textures.texels[image.first + row * image.width + column]);
     };

@@ -17,98 +17,134 @@ struct EnvironmentMap {
     std::uint32_t height = 0;
     float turn = 0.0f;  ///< counter-clockwise about +y, in turns
 
-    PL_HD bool empty() const { return texels.empty(); }
+    PL_INLINE bool empty() const { return texels.count == 0; }
 };
 
-/// Image coordinates of a unit direction: u to the right, v down, both in [0, 1].
+/// A direction as a point of the map.
+template <class N>
+struct MapPlaceOf {
+    Real2<N> point;         ///< image coordinates: u to the right, v down, both in [0, 1]
+    typename N::Real sine;  ///< of the angle from +y
+};
+using MapPlace = MapPlaceOf<One>;
+
+/// The place of a unit direction.
+template <class N>
+PL_INLINE MapPlaceOf<N> map_place(const EnvironmentMap& map, const Real3<N>& direction) {
+    const typename N::Real u = 0.5f + turns_of<N>(direction.x, -direction.z) + map.turn;
+    const typename N::Real sine = N::sqrt(direction.x * direction.x + direction.z * direction.z);
+    return {{u - N::floor(u), 2.0f * turns_of<N>(sine, direction.y)}, sine};
+}
 PL_HD inline Vec2f map_point(const EnvironmentMap& map, Vec3f direction) {
-    const float u = 0.5f + turns_of(direction.x, -direction.z) + map.turn;
-    const float across = std::sqrt(direction.x * direction.x + direction.z * direction.z);
-    return {u - std::floor(u), 2.0f * turns_of(across, direction.y)};
+    return pack(map_place(map, unpack(direction)).point);
 }
 
 /// Bilinear taps at a point of the image.
-struct MapTaps {
-    Taps x, y;
+template <class N>
+struct MapTapsOf {
+    TapsOf<N> x, y;
 };
-PL_HD inline MapTaps map_taps(const EnvironmentMap& map, Vec2f point) {
-    return {taps_at(point.x, map.width, true), taps_at(point.y, map.height, false)};
+using MapTaps = MapTapsOf<One>;
+template <class N>
+PL_INLINE MapTapsOf<N> map_taps(const EnvironmentMap& map, const Real2<N>& point) {
+    return {taps_at<N>(point.x, map.width, true), taps_at<N>(point.y, map.height, false)};
 }
+PL_HD inline MapTaps map_taps(const EnvironmentMap& map, Vec2f point) { return map_taps(map, unpack(point)); }
 
 /// Incident radiance from the direction of the taps.
-PL_HD inline Vec3f map_radiance(const EnvironmentMap& map, const MapTaps& at) {
-    const auto texel = [&](std::uint32_t column, std::uint32_t row) { return map.texels[row * map.width + column]; };
+template <class N>
+PL_INLINE Real3<N> map_radiance(const EnvironmentMap& map, const MapTapsOf<N>& at) {
+    const auto texel = [&](const typename N::Uint& column, const typename N::Uint& row) {
+        return load_vector<N>(map.texels.data, N::to_int(row * map.width + column));
+    };
     return bilinear(at.x, at.y, texel(at.x.low, at.y.low), texel(at.x.high, at.y.low), texel(at.x.low, at.y.high),
                     texel(at.x.high, at.y.high));
 }
 PL_HD inline Vec3f map_radiance(const EnvironmentMap& map, Vec3f direction) {
-    return map_radiance(map, map_taps(map, map_point(map, direction)));
+    return pack(map_radiance(map, map_taps(map, map_place(map, unpack(direction)).point)));
 }
 
-/// Probability of entry `i` of the distribution whose cumulative probabilities begin at `first`.
-PL_HD inline float cdf_share(Span<const float> cdf, std::uint32_t first, std::uint32_t i) {
-    return cdf[first + i] - (i > 0 ? cdf[first + i - 1] : 0.0f);
+/// Probability of entry `i` of the distribution whose cumulative probabilities begin at cdf[first].
+template <class N>
+PL_INLINE typename N::Real cdf_share(const float* cdf, const typename N::Int& first, const typename N::Int& i) {
+    const typename N::Mask is_first = i == 0;
+    const typename N::Real before = N::load(cdf, first + select(is_first, i, i - 1));
+    return N::load(cdf, first + i) - select(is_first, N::constant(0.0f), before);
 }
 
 /// Density of sample_map_point() over the unit square. Bilinear between the centers of texels, like the radiance, so
 /// the two are nearly proportional; exact, because the tents around texels sum to bilinear interpolation.
-PL_HD inline float map_density(const EnvironmentMap& map, const MapTaps& at) {
-    const auto texel = [&](std::uint32_t column, std::uint32_t row) {
-        return cdf_share(map.row_cdf, 0, row) * cdf_share(map.column_cdf, row * map.width, column);
+template <class N>
+PL_INLINE typename N::Real map_density(const EnvironmentMap& map, const MapTapsOf<N>& at) {
+    const auto texel = [&](const typename N::Uint& column, const typename N::Uint& row) {
+        return cdf_share<N>(map.row_cdf.data, N::constant(0), N::to_int(row)) *
+               cdf_share<N>(map.column_cdf.data, N::to_int(row * map.width), N::to_int(column));
     };
-    const float p = bilinear(at.x, at.y, texel(at.x.low, at.y.low), texel(at.x.high, at.y.low),
-                             texel(at.x.low, at.y.high), texel(at.x.high, at.y.high));
+    const typename N::Real p = bilinear(at.x, at.y, texel(at.x.low, at.y.low), texel(at.x.high, at.y.low),
+                                        texel(at.x.low, at.y.high), texel(at.x.high, at.y.high));
     return p * static_cast<float>(map.width) * static_cast<float>(map.height);
 }
 
-/// Density per steradian: rows shrink by `sine`, the sine of the angle from +y. 0 at the poles.
-PL_HD inline float map_pdf_sa(const EnvironmentMap& map, const MapTaps& at, float sine) {
-    return sine > 0.0f ? map_density(map, at) * (0.5f * kInvPi * kInvPi) / sine : 0.0f;
+/// Density per steradian: rows shrink by `sine`, see MapPlaceOf. 0 at the poles.
+template <class N>
+PL_INLINE typename N::Real map_pdf_sa(const EnvironmentMap& map, const MapTapsOf<N>& at,
+                                      const typename N::Real& sine) {
+    const typename N::Real pdf_sa = map_density(map, at) * (0.5f * kInvPi * kInvPi) / sine;
+    return select(static_cast<typename N::Mask>(sine > 0.0f), pdf_sa, N::constant(0.0f));
 }
 PL_HD inline float map_pdf_sa(const EnvironmentMap& map, Vec3f direction) {
-    const float sine = std::sqrt(direction.x * direction.x + direction.z * direction.z);
-    return map_pdf_sa(map, map_taps(map, map_point(map, direction)), sine);
+    const MapPlace place = map_place(map, unpack(direction));
+    return map_pdf_sa(map, map_taps(map, place.point), place.sine);
 }
 
 /// The interval of a discrete distribution that contains a uniform number.
+template <class N>
 struct CdfStep {
-    std::uint32_t entry;
-    float position;  ///< of the number in the interval, in [0, 1]
+    typename N::Int entry;
+    typename N::Real position;  ///< of the number in the interval, in [0, 1]
 };
-PL_HD inline CdfStep find_in_cdf(Span<const float> cdf, std::uint32_t first, std::uint32_t count, float u) {
-    const std::uint32_t low = find_interval(count, u, [&](std::uint32_t entry) { return cdf[first + entry]; });
-    const float start = low > 0 ? cdf[first + low - 1] : 0.0f;
-    return {low, (u - start) / (cdf[first + low] - start)};
+/// In the distribution of `count` entries whose cumulative probabilities begin at cdf[first].
+template <class N>
+PL_INLINE CdfStep<N> find_in_cdf(const float* cdf, const typename N::Int& first, std::uint32_t count,
+                                 const typename N::Real& u) {
+    const typename N::Int entry = search_not_above<N>(cdf, first, count - 1, u);
+    const typename N::Mask is_first = entry == 0;
+    const typename N::Real before = N::load(cdf, first + select(is_first, entry, entry - 1));
+    const typename N::Real start = select(is_first, N::constant(0.0f), before);
+    return {entry, (u - start) / (N::load(cdf, first + entry) - start)};
 }
 
 /// Samples a texel by its probability, then a tent around its center that extends into the neighbors; u in [0,1)^2.
-PL_HD inline Vec2f sample_map_point(const EnvironmentMap& map, Vec2f u) {
-    const CdfStep row = find_in_cdf(map.row_cdf, 0, map.height, u.y);
-    const CdfStep column = find_in_cdf(map.column_cdf, row.entry * map.width, map.width, u.x);
+template <class N>
+PL_INLINE Real2<N> sample_map_point(const EnvironmentMap& map, const Real2<N>& u) {
+    const auto columns = static_cast<std::int32_t>(map.width);
+    const CdfStep<N> row = find_in_cdf<N>(map.row_cdf.data, N::constant(0), map.height, u.y);
+    const CdfStep<N> column = find_in_cdf<N>(map.column_cdf.data, row.entry * columns, map.width, u.x);
     const auto width = static_cast<float>(map.width);
     const auto height = static_cast<float>(map.height);
-    const float x = (static_cast<float>(column.entry) + 0.5f + sample_tent<One>(column.position)) / width;
-    const float y = static_cast<float>(row.entry) + 0.5f + sample_tent<One>(row.position);
-    return {x - std::floor(x), reflect_into<One>(y, height) / height};
+    const typename N::Real x = (N::to_real(column.entry) + 0.5f + sample_tent<N>(column.position)) / width;
+    const typename N::Real y = N::to_real(row.entry) + 0.5f + sample_tent<N>(row.position);
+    return {x - N::floor(x), reflect_into<N>(y, height) / height};
+}
+PL_HD inline Vec2f sample_map_point(const EnvironmentMap& map, Vec2f u) {
+    return pack(sample_map_point(map, unpack(u)));
 }
 
-/// A sample of a far light.
-struct FarSample {
-    Vec3f wi{0.0f};  ///< unit
-    Vec3f radiance{0.0f};
-    float pdf_sa = 0.0f;
+/// A direction on the map with its place.
+template <class N>
+struct MapDirection {
+    Real3<N> wi;  ///< unit
+    MapPlaceOf<N> place;
 };
 
-/// Samples a direction of the map, which must not be empty; u in [0,1)^2.
-PL_HD inline FarSample sample_map(const EnvironmentMap& map, Vec2f u) {
-    const Vec2f point = sample_map_point(map, u);
-    const SineCosine longitude = sine_cosine_of_turns(point.x - 0.5f - map.turn);
-    const SineCosine colatitude = sine_cosine_of_turns(0.5f * point.y);
-    const MapTaps at = map_taps(map, point);
-    const float sine = max_of(colatitude.sine, 0.0f);
-    return {.wi = {sine * longitude.sine, colatitude.cosine, -sine * longitude.cosine},
-            .radiance = map_radiance(map, at),
-            .pdf_sa = map_pdf_sa(map, at, sine)};
+/// Samples a direction of the map, which must not be empty, with density map_pdf_sa(); u in [0,1)^2.
+template <class N>
+PL_INLINE MapDirection<N> sample_map_direction(const EnvironmentMap& map, const Real2<N>& u) {
+    const Real2<N> point = sample_map_point(map, u);
+    const SineCosineOf<N> longitude = sine_cosine_of_turns<N>(point.x - 0.5f - map.turn);
+    const SineCosineOf<N> colatitude = sine_cosine_of_turns<N>(0.5f * point.y);
+    const typename N::Real sine = max_real<N>(colatitude.sine, 0.0f);
+    return {{sine * longitude.sine, colatitude.cosine, -sine * longitude.cosine}, {point, sine}};
 }
 
 }  // namespace pl

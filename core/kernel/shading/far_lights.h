@@ -16,21 +16,28 @@ struct Sun {
     PL_HD bool empty() const { return chord2 == 0.0f; }
 };
 
-PL_HD inline bool in_sun(const Sun& sun, Vec3f direction) {
-    const Vec3f chord = direction - sun.direction;
-    return glm::dot(chord, chord) < sun.chord2;
+template <class N>
+PL_INLINE typename N::Mask in_sun(const Sun& sun, const Real3<N>& direction) {
+    const Real3<N> chord = direction - constant_vector<N>(sun.direction);
+    return dot(chord, chord) < sun.chord2;
 }
+PL_HD inline bool in_sun(const Sun& sun, Vec3f direction) { return in_sun(sun, unpack(direction)); }
+/// Density of sample_sun() per steradian at a direction that is in_sun().
+PL_INLINE float inside_sun_pdf_sa(const Sun& sun) { return kInvPi / sun.chord2; }
 PL_HD inline float sun_pdf_sa(const Sun& sun, Vec3f direction) {
-    return in_sun(sun, direction) ? kInvPi / sun.chord2 : 0.0f;
+    return in_sun(sun, direction) ? inside_sun_pdf_sa(sun) : 0.0f;
 }
 
 /// Uniform direction of the disk; u in [0,1)^2. Density: 1 / (pi chord2) per steradian.
-PL_HD inline Vec3f sample_sun(const Sun& sun, Vec2f u) {
-    const Vec2f disk = square_to_disk(u);
-    const float r2 = (disk.x * disk.x + disk.y * disk.y) * sun.chord2;
-    const float across = std::sqrt(sun.chord2 * (1.0f - 0.25f * r2));
-    return make_frame(sun.direction).to_world({disk.x * across, disk.y * across, 1.0f - 0.5f * r2});
+template <class N>
+PL_INLINE Real3<N> sample_sun(const Sun& sun, const Real2<N>& u) {
+    const Real2<N> disk = square_to_disk(u);
+    const typename N::Real r2 = (disk.x * disk.x + disk.y * disk.y) * sun.chord2;
+    const typename N::Real across = N::sqrt(sun.chord2 * (1.0f - 0.25f * r2));
+    return make_frame(constant_vector<N>(sun.direction))
+        .to_world({disk.x * across, disk.y * across, 1.0f - 0.5f * r2});
 }
+PL_HD inline Vec3f sample_sun(const Sun& sun, Vec2f u) { return pack(sample_sun(sun, unpack(u))); }
 
 /// Environment map and sun; either may be missing.
 struct FarLights {
@@ -40,6 +47,30 @@ struct FarLights {
 
     PL_HD bool empty() const { return map.empty() && sun.empty(); }
 };
+
+/// The far lights in one direction.
+template <class N>
+struct FarIlluminationOf {
+    Real3<N> radiance;
+    typename N::Real pdf_sa;  ///< of sample_far(), per steradian
+};
+
+/// `place`: of the unit direction on the map; without a map it is arbitrary.
+template <class N>
+PL_INLINE FarIlluminationOf<N> illuminate_from(const FarLights& lights, const Real3<N>& direction,
+                                               const MapPlaceOf<N>& place) {
+    const typename N::Mask shines = in_sun(lights.sun, direction);
+    const auto zero = N::constant(0.0f);
+    const float sun_pdf_sa = (1.0f - lights.map_probability) * inside_sun_pdf_sa(lights.sun);
+    FarIlluminationOf<N> far{{zero, zero, zero}, select(shines, N::constant(sun_pdf_sa), zero)};
+    if (!lights.map.empty()) {
+        const MapTapsOf<N> taps = map_taps(lights.map, place.point);
+        far.radiance = map_radiance(lights.map, taps);
+        far.pdf_sa = far.pdf_sa + lights.map_probability * map_pdf_sa(lights.map, taps, place.sine);
+    }
+    far.radiance = select(shines, far.radiance + constant_vector<N>(lights.sun.radiance), far.radiance);
+    return far;
+}
 
 PL_HD inline Vec3f far_radiance(const FarLights& lights, Vec3f direction) {
     Vec3f radiance{0.0f};
@@ -55,18 +86,42 @@ PL_HD inline float far_pdf_sa(const FarLights& lights, Vec3f direction) {
     return pdf_sa;
 }
 
+/// A sample of the far lights.
+template <class N>
+struct FarSampleOf {
+    Real3<N> wi;  ///< unit
+    Real3<N> radiance;
+    typename N::Real pdf_sa;
+};
+struct FarSample {
+    Vec3f wi{0.0f};
+    Vec3f radiance{0.0f};
+    float pdf_sa = 0.0f;
+};
+
 /// Samples the map or the sun, by `choice` in [0, 1); u in [0,1)^2. The lights must not be empty.
-PL_HD inline FarSample sample_far(const FarLights& lights, Vec2f u, float choice) {
-    if (choice < lights.map_probability) {
-        FarSample sample = sample_map(lights.map, u);
-        sample.pdf_sa = lights.map_probability * sample.pdf_sa +
-                        (1.0f - lights.map_probability) * sun_pdf_sa(lights.sun, sample.wi);
-        if (in_sun(lights.sun, sample.wi)) sample.radiance += lights.sun.radiance;
-        return sample;
+template <class N>
+PL_INLINE FarSampleOf<N> sample_far(const FarLights& lights, const Real2<N>& u, const typename N::Real& choice) {
+    const typename N::Mask of_map = choice < lights.map_probability;
+    const typename N::Mask of_sun = !(choice < lights.map_probability);
+    MapDirection<N> sampled{};
+    if (N::any(of_map)) sampled = sample_map_direction(lights.map, u);
+    if (N::any(of_sun)) {
+        // Rounding may put a direction just outside of the rim; radiance and density then both exclude the sun.
+        const Real3<N> wi = sample_sun(lights.sun, u);
+        sampled.wi = select(of_sun, wi, sampled.wi);
+        if (!lights.map.empty()) {
+            const MapPlaceOf<N> place = map_place(lights.map, wi);
+            sampled.place = {select(of_sun, place.point, sampled.place.point),
+                             select(of_sun, place.sine, sampled.place.sine)};
+        }
     }
-    const Vec3f wi = sample_sun(lights.sun, u);
-    // Rounding may put a direction just outside of the rim; radiance and density then both exclude the sun.
-    return {.wi = wi, .radiance = far_radiance(lights, wi), .pdf_sa = far_pdf_sa(lights, wi)};
+    const FarIlluminationOf<N> light = illuminate_from(lights, sampled.wi, sampled.place);
+    return {sampled.wi, light.radiance, light.pdf_sa};
+}
+PL_HD inline FarSample sample_far(const FarLights& lights, Vec2f u, float choice) {
+    const FarSampleOf<One> sample = sample_far<One>(lights, unpack(u), choice);
+    return {pack(sample.wi), pack(sample.radiance), sample.pdf_sa};
 }
 
 }  // namespace pl

@@ -201,10 +201,10 @@ PL_HD inline float far_light_pdf_sa(const SceneView& scene, Vec3f wi) {
     return scene.far_probability * far_pdf_sa(scene.far_lights, wi);
 }
 
+/// The light sample of a surface point by a sample of the far lights.
 template <class B>
-PL_HD inline DirectLight sample_far_light(const SceneView& scene, const SurfacePoint& surface, const B& bsdf,
-                                          Vec3f u) {
-    const FarSample far = sample_far(scene.far_lights, {u.x, u.y}, u.z);
+PL_HD inline DirectLight far_light_from(const SceneView& scene, const SurfacePoint& surface, const B& bsdf,
+                                        const FarSample& far) {
     DirectLight sample{.light = {}, .wi = far.wi, .emitted = far.radiance};
     sample.cos_i = bsdf.cosine(surface, far.wi);
     if (sample.cos_i > 0.0f && !is_black(sample.emitted)) sample.pdf_sa = scene.far_probability * far.pdf_sa;
@@ -279,7 +279,8 @@ PL_HD inline DirectLight sample_direct_light(const SceneView& scene, const Surfa
         }
     }
     if constexpr (F.has(Feature::EnvironmentMap)) {
-        if (u.w < scene.far_probability) return sample_far_light(scene, surface, bsdf, Vec3f{u});
+        if (u.w < scene.far_probability)
+            return far_light_from(scene, surface, bsdf, sample_far(scene.far_lights, {u.x, u.y}, u.z));
     }
     if (scene.lights.empty()) return {};
     return direct_light_from<F>(scene, surface, bsdf,

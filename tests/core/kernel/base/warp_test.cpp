@@ -1,6 +1,8 @@
 // Maps from the unit square: inverses, areas and densities.
 #include "core/kernel/base/warp.h"
 
+#include <algorithm>
+
 #include "tests/support/catch.hpp"
 #include "tests/support/scenes/shapes.h"
 #include "tests/support/statistics/sampling_rule.h"
@@ -124,4 +126,19 @@ TEST_CASE("Corners of the square stay inside the triangle") {
             CHECK(b.y >= 0.0f);
             CHECK(b.x + b.y <= 1.0f);
         }
+}
+
+TEST_CASE("Both searches of a distribution find the interval of a number, among entries without probability, too") {
+    test::Uniforms random(2);
+    for (std::uint32_t count = 1; count <= 70; ++count) {
+        std::vector<float> cdf(3, 2.0f);  // a search that begins at the fourth number
+        for (std::uint32_t i = 0; i < count; ++i) cdf.push_back(static_cast<float>(random.below(8)) / 8.0f);
+        std::ranges::sort(cdf.begin() + 3, cdf.end());
+        cdf.back() = 1.0f;
+        for (const float u : {0.0f, 0.125f, 0.3f, 0.5f, 0.874f, 0.875f, kAlmostOne}) {
+            const auto expected = std::upper_bound(cdf.begin() + 3, cdf.end() - 1, u) - (cdf.begin() + 3);
+            CHECK(find_interval(count, u, [&](std::uint32_t i) { return cdf[3 + i]; }) == expected);
+            CHECK(search_not_above<One>(cdf.data(), 3, count - 1, u) == expected);
+        }
+    }
 }

@@ -96,7 +96,7 @@ TEST_CASE("The density of a map integrates to one, and is that of its samples") 
               Approx(1.0).epsilon(3e-4));
         Uniforms random(2);
         for (int i = 0; i < 100000; ++i) {
-            const FarSample sample = sample_map(map, random.square());
+            const FarSample sample = sample_far(packed.view().far_lights, random.square(), random.next());
             REQUIRE(std::fabs(glm::length(sample.wi) - 1.0f) < 1e-6f);
             // Between texels the density may rise from 0 to its maximum: its slope there is that of the rounded
             // direction.
@@ -139,7 +139,7 @@ TEST_CASE("One bright texel is sampled almost perfectly") {
     Uniforms random(4);
     Moments moments;
     for (int i = 0; i < 200000; ++i) {
-        const FarSample sample = sample_map(map, random.square());
+        const FarSample sample = sample_far(packed.view().far_lights, random.square(), random.next());
         if (sample.pdf_sa > 0.0f) moments.add(static_cast<double>(sample.radiance.x / sample.pdf_sa));
     }
     CHECK(mean_equals(moments, {power, 1e-3 * power}, 0.01));
