@@ -119,6 +119,52 @@ PL_INLINE std::uint32_t mask_bits(TestInt mask) {
 }
 #endif
 
+/// Four neighboring words, and shuffles of vectors of such quarters.
+using FourWords = std::int32_t __attribute__((vector_size(16)));
+#if defined(__AVX512F__)
+/// at(i), at(4 + i), ... one after the other.
+PL_INLINE LaneInt join_quarters(const auto& at, std::uint32_t i) {
+    const auto half = [&](std::uint32_t first) {
+        return __builtin_shufflevector(at(first), at(first + 4), 0, 1, 2, 3, 4, 5, 6, 7);
+    };
+    return __builtin_shufflevector(half(i), half(i + 8), 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+}
+/// In each quarter: the words i and i + 1 of `a`, then of `b`.
+template <int i>
+PL_INLINE LaneInt join_pairs(const LaneInt& a, const LaneInt& b) {
+    return __builtin_shufflevector(a, b, i, i + 1, i + 16, i + 17, i + 4, i + 5, i + 20, i + 21, i + 8, i + 9, i + 24,
+                                   i + 25, i + 12, i + 13, i + 28, i + 29);
+}
+/// In each quarter: the words i and i + 1 of `a` and `b` in turn.
+template <int i>
+PL_INLINE LaneInt interleave_words(const LaneInt& a, const LaneInt& b) {
+    return __builtin_shufflevector(a, b, i, i + 16, i + 1, i + 17, i + 4, i + 20, i + 5, i + 21, i + 8, i + 24, i + 9,
+                                   i + 25, i + 12, i + 28, i + 13, i + 29);
+}
+#elif defined(__AVX2__)
+PL_INLINE LaneInt join_quarters(const auto& at, std::uint32_t i) {
+    return __builtin_shufflevector(at(i), at(i + 4), 0, 1, 2, 3, 4, 5, 6, 7);
+}
+template <int i>
+PL_INLINE LaneInt join_pairs(const LaneInt& a, const LaneInt& b) {
+    return __builtin_shufflevector(a, b, i, i + 1, i + 8, i + 9, i + 4, i + 5, i + 12, i + 13);
+}
+template <int i>
+PL_INLINE LaneInt interleave_words(const LaneInt& a, const LaneInt& b) {
+    return __builtin_shufflevector(a, b, i, i + 8, i + 1, i + 9, i + 4, i + 12, i + 5, i + 13);
+}
+#else
+PL_INLINE LaneInt join_quarters(const auto& at, std::uint32_t i) { return at(i); }
+template <int i>
+PL_INLINE LaneInt join_pairs(const LaneInt& a, const LaneInt& b) {
+    return __builtin_shufflevector(a, b, i, i + 1, i + 4, i + 5);
+}
+template <int i>
+PL_INLINE LaneInt interleave_words(const LaneInt& a, const LaneInt& b) {
+    return __builtin_shufflevector(a, b, i, i + 4, i + 1, i + 5);
+}
+#endif
+
 /// The vector counterpart of One, for arithmetic templated on the number of lanes; see core/kernel/base/numbers.h.
 struct Lanes {
     using Real = LaneFloat;
