@@ -60,7 +60,7 @@ if(pl_missing)
     message(FATAL_ERROR "Missing packages: ${pl_missing}\n./run installs them, or: apt-get install ${pl_missing}")
 endif()
 
-# Optional: Embree 3 or 4 (headers embree3/ or embree4/). PL_EMBREE_MAJOR is 0 without it.
+# Optional, for tests and benchmarks: Embree 3 or 4 (headers embree3/ or embree4/). PL_EMBREE_MAJOR is 0 without it.
 find_package(embree CONFIG QUIET)
 if(TARGET embree)
     pl_wrap(embree embree)

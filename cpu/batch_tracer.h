@@ -9,9 +9,6 @@
 #include "cpu/dense_intersector.h"
 #include "cpu/instance_tracer.h"
 #include "cpu/wide_intersector.h"
-#if PL_EMBREE_MAJOR > 0
-#include "cpu/embree_intersector.h"
-#endif
 
 namespace pl {
 
@@ -21,8 +18,8 @@ enum class IntersectorChoice;
 /// negligible.
 class BatchTracer {
 public:
-    /// Throws Error if the chosen intersector is not in this build or does not support the scene.
-    BatchTracer(const SceneView& scene, IntersectorChoice choice, int threads);
+    /// Throws Error if the chosen intersector does not support the scene.
+    BatchTracer(const SceneView& scene, IntersectorChoice choice);
 
     void find_closest(RayBatch& batch, std::uint32_t count) const {
         std::visit([&](const auto& intersector) { intersector.find_closest(batch, count); }, intersector_);
@@ -39,16 +36,12 @@ public:
         if (instances_) instances_->move_to(scene.instances);
     }
 
-    /// Display name: "dense (avx512)", "wide (avx512)", "embree 3.13.5", "bvh".
+    /// Display name: "dense (avx512)", "wide (avx512)", "bvh".
     std::string name() const;
 
 private:
-#if PL_EMBREE_MAJOR > 0
-    using AnyIntersector = std::variant<BvhBatch, DenseIntersector, WideIntersector, EmbreeIntersector>;
-#else
     using AnyIntersector = std::variant<BvhBatch, DenseIntersector, WideIntersector>;
-#endif
-    static AnyIntersector choose(const SceneView& scene, IntersectorChoice choice, int threads);
+    static AnyIntersector choose(const SceneView& scene, IntersectorChoice choice);
 
     AnyIntersector intersector_;               ///< of the triangles that are in the scene directly
     std::optional<InstanceTracer> instances_;  ///< traced afterwards

@@ -64,7 +64,7 @@ public:
         if (is_built)
             tracer_->move_to(scene_->view());
         else
-            tracer_.emplace(scene_->view(), settings_.intersector, settings_.threads);
+            tracer_.emplace(scene_->view(), settings_.intersector);
         lights_ = LightTable(scene_->view());
     }
 

@@ -8,8 +8,8 @@
 
 namespace pl {
 
-/// Intersection algorithm. Auto: Dense up to 64 triangles, else Wide. The others serve as peers in tests and benchmarks.
-enum class IntersectorChoice { Auto, Dense, Wide, Bvh, Embree };
+/// Intersection algorithm. Auto: Dense up to 64 triangles, else Wide. Bvh serves as a peer in tests and benchmarks.
+enum class IntersectorChoice { Auto, Dense, Wide, Bvh };
 
 struct CpuSettings {
     int threads = 0;  ///< 0: all hardware threads

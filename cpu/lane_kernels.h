@@ -240,8 +240,9 @@ struct alignas(64) LightSampleGroup {
     std::int32_t is_near[kGroupSize] = {};    ///< not 0: the light may be sampled by solid angle, this sample is none
     std::int32_t is_behind[kGroupSize] = {};  ///< not 0: its back is seen
     VectorGroup weights;                      ///< barycentric, on the light
-    float cos_i[kGroupSize] = {};
-    float pdf_sa[kGroupSize] = {};  ///< 0: nothing can be reflected
+    float seen_pdf_sa[kGroupSize] = {};       ///< whichever side of the vertex the light is on; of emissive triangles
+    float cos_i[kGroupSize] = {};             ///< this and the next: at Lambert reflectors
+    float pdf_sa[kGroupSize] = {};            ///< 0: nothing can be reflected
     VectorGroup wi, emitted;
     std::uint32_t target[kGroupSize] = {};  ///< the light's primitive; kNoPrimitive: a far light
     VectorGroup origin, direction;          ///< of the shadow ray

@@ -52,10 +52,10 @@ public:
         for (std::uint32_t i = 0; i < block.count(); ++i) {
             if (block.is_layered(i)) continue;
             if (!is_far_in_lanes(block, i)) {
-                if (!lanes_pay() || group(i).is_near[i % kGroupSize] != 0)
-                    sample_lambert(block, i);
-                else if constexpr (F.has(Feature::Textures) || F.has(Feature::CutOuts))
+                if (is_triangle_in_lanes(block, i))
                     look_up_emission(i);
+                else
+                    sample_lambert(block, i);
             }
             if constexpr (kTracksMedium<F>) absorb(block, i);
         }
@@ -93,8 +93,12 @@ public:
     /// The light sample of a vertex that is layered.
     UnweightedLight sample_layered(const VertexBlock<F, M>& block, std::uint32_t i) const {
         const ScatterPoint<F, M>& from = block.layered(i);
-        return unweighted_light(context_, from, sample_alone(block, i, from.surface, from.bsdf),
-                                block.layered_weights(i));
+        const bool is_in_lanes = is_triangle_in_lanes(block, i);
+        const DirectLight sample =
+            is_in_lanes ? reflected_alone(i, from) : sample_alone(block, i, from.surface, from.bsdf);
+        if (!(sample.pdf_sa > 0.0f)) return {};
+        const Ray ray = is_in_lanes ? shadow_ray(i, from.surface.primitive) : shadow_ray_to<F>(from.surface, sample);
+        return unweighted_light(context_, from, sample, ray, block.layered_weights(i));
     }
 
 private:
@@ -151,6 +155,10 @@ private:
             return far_lights_are_in_lanes() && block.light_numbers(i).w < context_.scene.far_probability;
         return false;
     }
+    /// Whether the sample of vertex i is that of an emissive triangle that was made in lanes.
+    bool is_triangle_in_lanes(const VertexBlock<F, M>& block, std::uint32_t i) const {
+        return lanes_pay() && !is_far_in_lanes(block, i) && group(i).is_near[i % kGroupSize] == 0;
+    }
     template <class B>
     DirectLight sample_alone(const VertexBlock<F, M>& block, std::uint32_t i, const SurfacePoint& surface,
                              const B& bsdf) const {
@@ -183,16 +191,39 @@ private:
         to.direction.set(lane, ray.direction);
         if constexpr (F.has(Feature::ManyLights)) to.cluster[lane] = sample.cluster;
     }
-    /// Emission that varies over a light.
-    void look_up_emission(std::uint32_t i) {
-        LightSampleGroup& to = group(i);
+    /// The sample of an emissive triangle in lanes, at a vertex that is layered.
+    DirectLight reflected_alone(std::uint32_t i, const ScatterPoint<F, M>& from) const {
+        const LightSampleGroup& lights = group(i);
         const std::uint32_t lane = i % kGroupSize;
-        if (!(to.pdf_sa[lane] > 0.0f)) return;
-        SurfacePoint on_light;
-        on_light.primitive = to.target[lane];
-        on_light.material = context_.scene.triangles[on_light.primitive].material;
-        on_light.front = to.is_behind[lane] == 0;
-        to.emitted.set(lane, light_emitted<F>(context_.scene, on_light, to.weights.get(lane)));
+        DirectLight sample{.light = {}, .wi = lights.wi.get(lane)};
+        if (!(lights.seen_pdf_sa[lane] > 0.0f)) return sample;
+        sample.cos_i = from.bsdf.cosine(from.surface, sample.wi);
+        if (!(sample.cos_i > 0.0f)) return sample;
+        sample.emitted = emission(i);
+        if (!is_black(sample.emitted)) sample.pdf_sa = lights.seen_pdf_sa[lane];
+        if constexpr (F.has(Feature::ManyLights)) {
+            if (!context_.scene.light_tree.empty()) sample.cluster = lights.cluster[lane];
+        }
+        return sample;
+    }
+    /// Emission of the emissive triangle that was sampled in lanes.
+    Vec3f emission(std::uint32_t i) const {
+        const LightSampleGroup& from = group(i);
+        const std::uint32_t lane = i % kGroupSize;
+        if constexpr (F.has(Feature::Textures) || F.has(Feature::CutOuts)) {
+            SurfacePoint on_light;
+            on_light.primitive = from.target[lane];
+            on_light.material = context_.scene.triangles[on_light.primitive].material;
+            on_light.front = from.is_behind[lane] == 0;
+            return light_emitted<F>(context_.scene, on_light, from.weights.get(lane));
+        }
+        return from.emitted.get(lane);
+    }
+    /// Emission that varies over a light.
+    void look_up_emission([[maybe_unused]] std::uint32_t i) {
+        if constexpr (F.has(Feature::Textures) || F.has(Feature::CutOuts)) {
+            if (group(i).pdf_sa[i % kGroupSize] > 0.0f) group(i).emitted.set(i % kGroupSize, emission(i));
+        }
     }
 
     /// Absorption in the glass around a vertex.

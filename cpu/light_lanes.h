@@ -59,14 +59,15 @@ private:
         const Real3<Lanes> wi = scaled(segment, 1.0f / Lanes::sqrt(distance2));
         const LaneFloat cos_i = reflection_cosine(from.normal, vector(receivers_.shading_normal), wi);
         const LaneFloat pdf_sa = per_steradian<Lanes>(pdf_area, from.position, point, wi);
-        const LaneInt is_other = primitive != integers(receivers_.primitive);
-        const LaneInt reflects = (distance2 > 0.0f) & (cos_i > 0.0f) & is_other;
+        const LaneInt is_seen = (distance2 > 0.0f) & (primitive != integers(receivers_.primitive));
+        const LaneFloat seen_pdf_sa = select(is_seen, pdf_sa, LaneFloat{});
         const RaySegment<Lanes> shadow = spawn_segment(from, point);
 
         store(is_near, samples.is_near);
         store(behind, samples.is_behind);
         store(cos_i, samples.cos_i);
-        store(select(reflects, pdf_sa, LaneFloat{}), samples.pdf_sa);
+        store(seen_pdf_sa, samples.seen_pdf_sa);
+        store(select(cos_i > 0.0f, seen_pdf_sa, LaneFloat{}), samples.pdf_sa);
         store(weights, samples.weights);
         store(wi, samples.wi);
         store(select(behind, light.vector(offsetof(LightRecord, back_emission)), emission), samples.emitted);

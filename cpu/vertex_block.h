@@ -43,6 +43,9 @@ public:
         VertexGroup& group = groups_[count_ / kGroupSize];
         const std::uint32_t lane = count_ % kGroupSize;
         group.position.set(lane, from.surface.position);
+        group.geometric_normal.set(lane, from.surface.geometric_normal);
+        group.position_error[lane] = from.surface.position_error;
+        group.primitive[lane] = from.surface.primitive;
         if constexpr (F.has(Feature::NextEventEstimation))
             for (int i = 0; i < 4; ++i) group.light.rows[i][lane] = numbers.light[i];
         if (from.bsdf.is_lambert())
@@ -98,10 +101,7 @@ private:
 
     void add_lambert(VertexGroup& group, std::uint32_t lane, const ScatterPoint<F, M>& from,
                      const ReceivedWeights& weights, const VertexNumbers& numbers) {
-        group.geometric_normal.set(lane, from.surface.geometric_normal);
         group.shading_normal.set(lane, from.surface.shading_normal);
-        group.position_error[lane] = from.surface.position_error;
-        group.primitive[lane] = from.surface.primitive;
         group.albedo.set(lane, from.bsdf.albedo());
         group.scatter.set(lane, Vec3f{numbers.scatter});
         if constexpr (F.has(Feature::NextEventEstimation)) group.throughput.set(lane, weights.throughput);

@@ -6,6 +6,10 @@
 
 #include "core/session/backend.h"
 
+namespace pl::test {
+class EmbreeScene;
+}
+
 namespace pl::bench {
 
 /// Traces one sample for every pixel of its own film per call.
@@ -20,8 +24,7 @@ public:
     double mean() const;
 
 private:
-    struct Handles;
-    std::unique_ptr<Handles> handles_;
+    std::unique_ptr<test::EmbreeScene> embree_;
     SceneView scene_;
     HostArray<FilmPixel> pixels_;
     std::uint32_t width_;

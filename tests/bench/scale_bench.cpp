@@ -55,7 +55,6 @@ public:
             tracers_.push_back({name, make_cpu_backend({.threads = threads, .intersector = choice})});
         };
         add("back end, wide hierarchy", IntersectorChoice::Wide);
-        add("back end, Embree with exact test", IntersectorChoice::Embree);
         add("back end, two-wide hierarchy", IntersectorChoice::Bvh);
         tracers_.push_back({"loop over Embree's single rays", nullptr});
         for (const Tracer& tracer : tracers_) {

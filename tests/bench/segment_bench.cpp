@@ -1,6 +1,6 @@
 // The cost of a segment of a guided path, compared with one of default path tracing.
-// Usage: segment_bench [SCENE [VOLUMES [ROUNDS [THREADS [TRACER [LIGHT [METHOD]]]]]]]; the scene "ball" has a million triangles, the
-// tracer is auto, dense, wide, bvh or embree, LIGHT is off, on or both: without and with light samples. Processor time, of one
+// Usage: segment_bench [SCENE [VOLUMES [ROUNDS [THREADS [TRACER [LIGHT [METHOD]]]]]]]; scenes as in bench_scenes.h, the
+// tracer is auto, dense, wide or bvh, LIGHT is off, on or both: without and with light samples. Processor time, of one
 // thread unless told otherwise. The methods take turns, one pass each, so that other work on the machine meets all of them; a
 // ratio is to `default` with the same light samples. A checksum tells whether two builds make the same pictures.
 #include <algorithm>
@@ -14,13 +14,11 @@
 #include <vector>
 
 #include "core/base/error.h"
-#include "core/io/load_scene.h"
 #include "core/session/session.h"
 #include "cpu/cpu_backend.h"
+#include "tests/bench/bench_scenes.h"
 #include "tests/bench/machine_load.h"
 #include "tests/bench/quartiles.h"
-#include "tests/support/files/temporary_folder.h"
-#include "tests/support/scenes/bumpy_ball.h"
 
 namespace pl::bench {
 namespace {
@@ -85,21 +83,12 @@ private:
     Snapshot last_;
 };
 
-SceneDescription open_scene(const std::string& name) {
-    constexpr std::size_t kRows = 501;  // of the ball
-    const std::filesystem::path assets = PL_SOURCE_DIR "/assets";
-    if (name != "ball") return load_scene(name, assets);
-    const test::TemporaryFolder folder;
-    return load_scene(test::write_bumpy_ball(folder.path(), kRows).string(), assets);
-}
-
 IntersectorChoice tracer_of(const std::string& name) {
     if (name == "auto") return IntersectorChoice::Auto;
     if (name == "dense") return IntersectorChoice::Dense;
     if (name == "wide") return IntersectorChoice::Wide;
     if (name == "bvh") return IntersectorChoice::Bvh;
-    if (name == "embree") return IntersectorChoice::Embree;
-    throw Error(ErrorKind::Usage, "tracer: expected auto, dense, wide, bvh or embree, got " + name);
+    throw Error(ErrorKind::Usage, "tracer: expected auto, dense, wide or bvh, got " + name);
 }
 
 /// Without and with light samples.
@@ -163,7 +152,7 @@ int main(int count, char** arguments) try {
         scene.c_str(), volumes, threads, tracer.c_str());
     std::printf("%-14s %-5s %8s %8s %8s %13s %8s   picture\n", "method", "light", "median", "least", "ratio",
                 "[quartiles]", "learning");
-    const auto description = std::make_shared<const pl::SceneDescription>(pl::bench::open_scene(scene));
+    const auto description = std::make_shared<const pl::SceneDescription>(pl::bench::open_bench_scene(scene));
     for (const bool light : light_samples)
         pl::bench::measure({.scene = description, .volumes = volumes, .cpu = cpu, .light_samples = light}, methods,
                            rounds);

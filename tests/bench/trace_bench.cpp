@@ -1,5 +1,5 @@
 // The speed of the CPU back end, next to a plain loop over Embree's single-ray query that does the same work.
-// Usage: trace_bench [SCENE [PAIRS]]. Passes of both alternate, and only ratios of neighbors are compared, because
+// Usage: trace_bench [SCENE [PAIRS]]. Scenes as in bench_scenes.h. Passes of both alternate, and only ratios of neighbors are compared, because
 // other work on the machine comes and goes.
 #include <algorithm>
 #include <cstdio>
@@ -12,10 +12,10 @@
 #include "core/fields/place_volumes.h"
 #include "core/fields/table_model.h"
 #include "core/fields/volume_grid.h"
-#include "core/io/load_scene.h"
 #include "core/scene/needed_effects.h"
 #include "core/scene/pack_scene.h"
 #include "cpu/cpu_backend.h"
+#include "tests/bench/bench_scenes.h"
 #include "tests/bench/embree_loop.h"
 #include "tests/bench/machine_load.h"
 #include "tests/bench/quartiles.h"
@@ -180,7 +180,7 @@ void compare(const SceneDescription& description, int threads, bool next_event, 
 int main(int count, char** arguments) try {
     const std::string name = count > 1 ? arguments[1] : "cornell";
     const int pairs = count > 2 ? std::max(1, std::atoi(arguments[2])) : 15;
-    const pl::SceneDescription scene = pl::load_scene(name, PL_SOURCE_DIR "/assets");
+    const pl::SceneDescription scene = pl::bench::open_bench_scene(name);
     std::printf("%s, %d x %d\n", scene.name.c_str(), pl::bench::kSize, pl::bench::kSize);
     for (const bool next_event : {false, true})
         for (const int threads : {1, 2}) pl::bench::compare(scene, threads, next_event, pairs);

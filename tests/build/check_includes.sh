@@ -87,7 +87,7 @@ SDL*:              ui/draw ui/input ui/script ui/window ui/viewer.cpp
 imgui*:            ui/draw
 backends/imgui*:   ui/draw
 CLI/*:             app
-embree[34]/*:      cpu
+embree[34]/*:      tests
 omp.h:             cpu
 cuda*:             cuda
 mpi.h:             mpi

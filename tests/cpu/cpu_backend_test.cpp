@@ -1,5 +1,6 @@
 // The contract of a back end except its pictures: rejected requests, preserved state, description.
 #include <algorithm>
+#include <cfenv>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -84,6 +85,20 @@ TEST_CASE("Views in parallel equal views pixel by pixel") {
             CHECK(same_bits(expected, backend->read_film(slot).mean));
         }
     }
+}
+
+TEST_CASE("A pass leaves rounding and denormals as they were") {
+    const Room room;
+    volatile float tiny = 1e-40f;
+    REQUIRE(std::fesetround(FE_UPWARD) == 0);
+    const auto backend = make_backend(room, {.threads = 2});
+    CHECK(std::fegetround() == FE_UPWARD);
+    REQUIRE(std::fesetround(FE_TONEAREST) == 0);
+    backend->reset_film(kBeauty, kWidth, kHeight);
+    backend->run_pass(pass_of(room, kBeauty));
+    CHECK(std::fegetround() == FE_TONEAREST);
+    CHECK(tiny * 0.5f > 0.0f);
+    CHECK(tiny + tiny > tiny);
 }
 
 TEST_CASE("A pass of a heat map replaces the one before") {

@@ -168,9 +168,9 @@ TEST_CASE("The tracer takes the dense intersector up to 64 triangles, then the w
     description.materials.push_back(gray());
     add_random_triangles(description, 64, 1);
     const HostScene small = pack_scene(description);
-    CHECK_THAT(BatchTracer(small.view(), IntersectorChoice::Auto, 1).name(), contains("dense"));
+    CHECK_THAT(BatchTracer(small.view(), IntersectorChoice::Auto).name(), contains("dense"));
     add_random_triangles(description, 1, 2);
     const HostScene large = pack_scene(description);
-    CHECK_THAT(BatchTracer(large.view(), IntersectorChoice::Auto, 1).name(), contains("wide"));
-    CHECK(BatchTracer(large.view(), IntersectorChoice::Bvh, 1).name() == "bvh");
+    CHECK_THAT(BatchTracer(large.view(), IntersectorChoice::Auto).name(), contains("wide"));
+    CHECK(BatchTracer(large.view(), IntersectorChoice::Bvh).name() == "bvh");
 }

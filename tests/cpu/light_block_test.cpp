@@ -143,7 +143,8 @@ TEST_CASE("Far lights are sampled in lanes as by one path alone, beside all othe
     const Sky skies[] = {{"map", spotted_map(), {}},
                          {"sun", {}, wide_sun()},
                          {"map and sun", spotted_map(), wide_sun()},
-                         {"one texel", {.width = 1, .height = 1, .texels = {glm::vec3{1.0f}}}, {}}};
+                         {"one texel", {.width = 1, .height = 1, .texels = {glm::vec3{0.001f}}}, {}},
+                         {"bright", {.width = 1, .height = 1, .texels = {glm::vec3{100.0f}}}, {}}};
     for (const Sky& sky : skies)
         for (const int lights : {0, 3}) {
             SceneDescription description = describe_room(lights);
@@ -151,6 +152,7 @@ TEST_CASE("Far lights are sampled in lanes as by one path alone, beside all othe
             description.sun = sky.sun;
             const HostScene scene = pack_scene(description);
             const SceneView view = scene.view();
+            CAPTURE(view.far_probability);
             REQUIRE(view.far_probability > 0.0f);
             const KeepsEstimates method;
             const PathSettings settings{.next_event = 1};
@@ -159,11 +161,9 @@ TEST_CASE("Far lights are sampled in lanes as by one path alone, beside all othe
                 INFO(kernels.isa << ", " << sky.name << ", " << lights << " lights");
                 const Comparison result = compare(context, kernels);
                 CHECK(result.different == 0);
-                CHECK(result.far > 300);
-                if (lights == 0)
-                    CHECK(result.lit == result.far);
-                else
-                    CHECK(result.lit > result.far + 50);
+                CHECK(result.far > 200);
+                if (lights == 0) CHECK(result.lit == result.far);
+                if (view.far_probability < 0.9f) CHECK(result.lit > result.far + 20);
             }
         }
 }
@@ -182,7 +182,7 @@ TEST_CASE("Delta lights leave far lights to one path alone") {
     }
 }
 
-TEST_CASE("A far light at a surface with lobes is the sample that was made in lanes") {
+TEST_CASE("Lights at surfaces with lobes are the samples that were made in lanes") {
     constexpr FeatureSet kLobes = kLights.with(Feature::Plastic);
     SceneDescription description = describe_room(3);
     description.materials[0].kind = SurfaceKind::Plastic;
@@ -199,6 +199,7 @@ TEST_CASE("A far light at a surface with lobes is the sample that was made in la
         const auto lights = std::make_unique<LightBlock<kLobes, DefaultMethod>>(context, &table, kernels);
         Uniforms random(9);
         int far = 0;
+        int triangles = 0;
         for (int round = 0; round < 20; ++round) {
             block->clear();
             std::vector<UnweightedLight> expected;
@@ -218,11 +219,12 @@ TEST_CASE("A far light at a surface with lobes is the sample that was made in la
                 if (!(light.pdf_sa > 0.0f)) continue;
                 REQUIRE(same_ray(light.ray, expected[i].ray));
                 REQUIRE(same_bits(light.contribution, expected[i].contribution));
-                far += light.ray.target == kNoPrimitive ? 1 : 0;
+                (light.ray.target == kNoPrimitive ? far : triangles) += 1;
             }
         }
         INFO(kernels.isa);
         CHECK(far > 200);
+        CHECK(triangles > 50);
     }
 }
 

@@ -57,12 +57,12 @@ inline EnvironmentMapDescription spotted_map() {
     EnvironmentMapDescription map{.width = 21, .height = 11, .rotation_deg = 77.0f};
     Uniforms random(4);
     for (int i = 0; i < 21 * 11; ++i) {
-        const Vec3f radiance = random.cube(0.0f, 9.0f);
+        const Vec3f radiance = random.cube(0.0f, 0.002f);
         map.texels.push_back(random.below(3) == 0 ? glm::vec3{radiance.x, radiance.y, radiance.z} : glm::vec3{0.0f});
     }
     return map;
 }
-inline SunDescription wide_sun() { return {.direction = {1, 2, -1}, .radiance = {30, 20, 10}, .angle_deg = 20.0f}; }
+inline SunDescription wide_sun() { return {.direction = {1, 2, -1}, .radiance = {0.02f, 0.015f, 0.01f}, .angle_deg = 20.0f}; }
 
 /// A point on a surface, often on a light, seen from a random direction.
 inline RoomPoint random_point(const SceneView& scene, Uniforms& random) {

@@ -164,17 +164,3 @@ TEST_CASE("Batches of probes equal single probes") {
             CHECK(same_bits(expected.pending_count, tables.pending_count));
         }
 }
-
-#if PL_EMBREE_MAJOR > 0
-// Embree may report the other of two adjacent triangles at their edge, so pixels may differ, but not the means.
-TEST_CASE("Through Embree nearly every pixel has the same bits") {
-    const Room room;
-    const Outcome expected = loop_over_paths<kLights, DefaultMethod>(room);
-    const Outcome embree =
-        batches(room, MethodId::Default, true, {.threads = 2, .intersector = IntersectorChoice::Embree});
-    std::size_t different = 0;
-    for (std::size_t i = 0; i < expected.film.size(); ++i) different += expected.film[i] != embree.film[i] ? 1 : 0;
-    CHECK(different <= 2);
-    CHECK(embree.counters.path.escaped == 0);
-}
-#endif

@@ -36,7 +36,7 @@ TEST_CASE("Batches of rays through holes have the bits of single rays, by every 
     const auto count = static_cast<std::uint32_t>(rays.size());
     for (const IntersectorChoice choice :
          {IntersectorChoice::Bvh, IntersectorChoice::Dense, IntersectorChoice::Wide}) {
-        const BatchTracer tracer(scene, choice, 1);
+        const BatchTracer tracer(scene, choice);
         INFO(tracer.name());
         SolidHits<kEveryFeature, BatchTracer> solid(scene, tracer, count);
         RayBatch batch(count);

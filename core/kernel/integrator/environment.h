@@ -45,10 +45,11 @@ PL_HD inline FarRadiance add_environment(const SceneView& scene, [[maybe_unused]
     state.radiance += state.throughput * far.radiance;
     if constexpr (F.has(Feature::EnvironmentMap)) {
         if (scene.far_lights.empty()) return far;
-        const Vec3f map = far_radiance(scene.far_lights, state.ray.direction);
+        const FarDirection<One> direction = far_direction(scene.far_lights, state.ray.direction);
+        const Vec3f map = pack(direction.radiance());
         if (is_black(map)) return far;
         const float weight =
-            direction_weight(settings, state, [&] { return far_light_pdf_sa(scene, state.ray.direction); });
+            direction_weight(settings, state, [&] { return scene.far_probability * direction.pdf_sa(); });
         state.radiance += weight * (state.throughput * map);
         const float constant = rms(far.radiance);
         const float varying = rms(map);

@@ -48,12 +48,10 @@ PL_HD inline UnweightedLight reflect_light(const ScatterPoint<F, M>& from, const
     return light;
 }
 
-/// The reflection at a vertex of a light sample, through the glass around the path.
+/// The reflection at a vertex of a light sample that can contribute, through the glass around the path. `ray`: shadow_ray_to().
 template <FeatureSet F, Method M>
 PL_HD_INLINED UnweightedLight unweighted_light(const PathContext<M>& context, const ScatterPoint<F, M>& from,
-                                               DirectLight sample, const ReceivedWeights& weights) {
-    if (!(sample.pdf_sa > 0.0f)) return {};
-    const Ray ray = shadow_ray_to<F>(from.surface, sample);
+                                               DirectLight sample, const Ray& ray, const ReceivedWeights& weights) {
     if constexpr (kTracksMedium<F>) {
         const std::uint32_t medium = medium_towards(from.surface, from.bsdf, sample.wi, weights.medium);
         sample.emitted *= shadow_transmittance(context.scene, medium, ray);
@@ -66,8 +64,9 @@ template <FeatureSet F, Method M>
 PL_HD_INLINED UnweightedLight sample_light(const PathContext<M>& context, const ScatterPoint<F, M>& from, Vec4f u,
                                            const ReceivedWeights& weights) {
     const LearnedLights learned = learned_lights<F>(context.method, from.vertex).learned();
-    return unweighted_light(context, from, sample_direct_light<F>(context.scene, from.surface, from.bsdf, u, learned),
-                            weights);
+    const DirectLight sample = sample_direct_light<F>(context.scene, from.surface, from.bsdf, u, learned);
+    if (!(sample.pdf_sa > 0.0f)) return {};
+    return unweighted_light(context, from, sample, shadow_ray_to<F>(from.surface, sample), weights);
 }
 
 /// Weighs a light sample by multiple importance sampling. `scatter_pdf_sa`: of its direction, see scatter_pdf_sa(). `shadow` comes

@@ -50,40 +50,41 @@ struct FarLights {
 
 /// The far lights in one direction.
 template <class N>
-struct FarIlluminationOf {
-    Real3<N> radiance;
-    typename N::Real pdf_sa;  ///< of sample_far(), per steradian
-};
-
-/// `place`: of the unit direction on the map; without a map it is arbitrary.
-template <class N>
-PL_INLINE FarIlluminationOf<N> illuminate_from(const FarLights& lights, const Real3<N>& direction,
-                                               const MapPlaceOf<N>& place) {
-    const typename N::Mask shines = in_sun(lights.sun, direction);
-    const auto zero = N::constant(0.0f);
-    const float sun_pdf_sa = (1.0f - lights.map_probability) * inside_sun_pdf_sa(lights.sun);
-    FarIlluminationOf<N> far{{zero, zero, zero}, select(shines, N::constant(sun_pdf_sa), zero)};
-    if (!lights.map.empty()) {
-        const MapTapsOf<N> taps = map_taps(lights.map, place.point);
-        far.radiance = map_radiance(lights.map, taps);
-        far.pdf_sa = far.pdf_sa + lights.map_probability * map_pdf_sa(lights.map, taps, place.sine);
+class FarDirection {
+public:
+    /// `place`: of the unit direction on the map; without a map it is arbitrary.
+    PL_INLINE FarDirection(const FarLights& lights, const Real3<N>& direction, const MapPlaceOf<N>& place)
+        : lights_(lights), is_in_sun_(in_sun(lights.sun, direction)), sine_(place.sine) {
+        if (!lights.map.empty()) taps_ = map_taps(lights.map, place.point);
     }
-    far.radiance = select(shines, far.radiance + constant_vector<N>(lights.sun.radiance), far.radiance);
-    return far;
-}
 
+    PL_INLINE Real3<N> radiance() const {
+        Real3<N> radiance = constant_vector<N>(Vec3f{0.0f});
+        if (!lights_.map.empty()) radiance = map_radiance(lights_.map, taps_);
+        return select(is_in_sun_, radiance + constant_vector<N>(lights_.sun.radiance), radiance);
+    }
+    /// Density of sample_far() per steradian.
+    PL_INLINE typename N::Real pdf_sa() const {
+        const float of_sun = (1.0f - lights_.map_probability) * inside_sun_pdf_sa(lights_.sun);
+        const typename N::Real pdf_sa = select(is_in_sun_, N::constant(of_sun), N::constant(0.0f));
+        if (lights_.map.empty()) return pdf_sa;
+        return pdf_sa + lights_.map_probability * map_pdf_sa(lights_.map, taps_, sine_);
+    }
+
+private:
+    const FarLights& lights_;
+    typename N::Mask is_in_sun_;
+    typename N::Real sine_;
+    MapTapsOf<N> taps_{};
+};
+PL_HD inline FarDirection<One> far_direction(const FarLights& lights, Vec3f direction) {
+    return {lights, unpack(direction), lights.map.empty() ? MapPlace{} : map_place(lights.map, unpack(direction))};
+}
 PL_HD inline Vec3f far_radiance(const FarLights& lights, Vec3f direction) {
-    Vec3f radiance{0.0f};
-    if (!lights.map.empty()) radiance = map_radiance(lights.map, direction);
-    if (in_sun(lights.sun, direction)) radiance += lights.sun.radiance;
-    return radiance;
+    return pack(far_direction(lights, direction).radiance());
 }
-
-/// Density of sample_far() per steradian.
 PL_HD inline float far_pdf_sa(const FarLights& lights, Vec3f direction) {
-    float pdf_sa = (1.0f - lights.map_probability) * sun_pdf_sa(lights.sun, direction);
-    if (!lights.map.empty()) pdf_sa += lights.map_probability * map_pdf_sa(lights.map, direction);
-    return pdf_sa;
+    return far_direction(lights, direction).pdf_sa();
 }
 
 /// A sample of the far lights.
@@ -116,8 +117,8 @@ PL_INLINE FarSampleOf<N> sample_far(const FarLights& lights, const Real2<N>& u, 
                              select(of_sun, place.sine, sampled.place.sine)};
         }
     }
-    const FarIlluminationOf<N> light = illuminate_from(lights, sampled.wi, sampled.place);
-    return {sampled.wi, light.radiance, light.pdf_sa};
+    const FarDirection<N> far(lights, sampled.wi, sampled.place);
+    return {sampled.wi, far.radiance(), far.pdf_sa()};
 }
 PL_HD inline FarSample sample_far(const FarLights& lights, Vec2f u, float choice) {
     const FarSampleOf<One> sample = sample_far<One>(lights, unpack(u), choice);

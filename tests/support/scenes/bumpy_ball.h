@@ -1,4 +1,4 @@
-// A model of any size, made on the spot: a ball with bumps on a floor under a lamp, as OBJ and MTL files.
+// A model of any size, made on the spot: a ball with bumps on a floor under a lamp, or in a room, as OBJ and MTL files.
 #pragma once
 
 #include <cmath>
@@ -17,9 +17,13 @@ constexpr std::size_t ball_triangles(std::size_t rows) { return 4 * rows * (rows
 /// The floor and the lamp.
 inline constexpr std::size_t kBesideBall = 4;
 
+/// Around the ball: nothing, or walls and a ceiling, so that no path leaves the scene.
+enum class BallSurroundings { Open, Room };
+
 /// Writes ball.obj and ball.mtl into a folder; returns the path of the former. `rows` is at least 2; 51 rows make ten
-/// thousand triangles, 501 a million. The ball hangs clear of the floor, in meters, and is closed.
-inline std::filesystem::path write_bumpy_ball(const std::filesystem::path& folder, std::size_t rows) {
+/// thousand triangles, 501 a million, 1582 ten million. The ball hangs clear of the floor, in meters, and is closed.
+inline std::filesystem::path write_bumpy_ball(const std::filesystem::path& folder, std::size_t rows,
+                                              BallSurroundings surroundings = BallSurroundings::Open) {
     constexpr double kPi = 3.14159265358979323846;
     const std::size_t columns = 2 * rows;
     std::string text = "mtllib ball.mtl\n";
@@ -57,6 +61,10 @@ inline std::filesystem::path write_bumpy_ball(const std::filesystem::path& folde
         }
     text += "o floor\nusemtl floor\nv -4 0 4\nv 4 0 4\nv 4 0 -4\nv -4 0 -4\nf -4 -3 -2\nf -4 -2 -1\n"
             "o lamp\nusemtl lamp\nv -1 4 -1\nv 1 4 -1\nv 1 4 1\nv -1 4 1\nf -4 -3 -2\nf -4 -2 -1\n";
+    if (surroundings == BallSurroundings::Room)
+        text +=
+            "o room\nusemtl floor\nv -4 0 -4\nv 4 0 -4\nv 4 0 4\nv -4 0 4\nv -4 5 -4\nv 4 5 -4\nv 4 5 4\nv -4 5 4\n"
+            "f -8 -7 -3 -4\nf -7 -6 -2 -3\nf -6 -5 -1 -2\nf -5 -8 -4 -1\nf -4 -3 -2 -1\n";
     const std::filesystem::path path = folder / "ball.obj";
     std::ofstream(path, std::ios::binary) << text;
     std::ofstream(folder / "ball.mtl", std::ios::binary)
