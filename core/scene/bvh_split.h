@@ -32,22 +32,37 @@ struct BuildBox {
     }
 };
 
-/// The box of a triangle, and its number in the place without meaning.
+/// The axes of space, and one of sizes: a set of walls and of small things between them has a box as large as the room, and no plane
+/// separates the two.
+inline constexpr int kSizeAxis = 3;
+inline constexpr int kSplitAxes = 4;
+
+/// The box of a triangle, and in the places without meaning its number and its size.
 class BuildTriangle {
 public:
     BuildTriangle() = default;
     BuildTriangle(const BuildBox& box, std::uint32_t number) : low_(box.low), high_(box.high) {
         low_[3] = std::bit_cast<float>(kNormalFloat | number);
-        high_[3] = 0.0f;
+        high_[3] = size_of(box);
     }
 
     BuildBox box() const { return {low_, high_}; }
-    BuildVector center() const { return 0.5f * low_ + 0.5f * high_; }
+    /// The center of the box; the place on the axis of sizes behind it.
+    BuildVector center() const {
+        BuildVector center = 0.5f * low_ + 0.5f * high_;
+        center[kSizeAxis] = high_[kSizeAxis];
+        return center;
+    }
     std::uint32_t number() const { return std::bit_cast<std::uint32_t>(low_[3]) & ~kNormalFloat; }
 
 private:
     /// Sets the exponent of numbers below kMaxBvhTriangles: arithmetic on subnormal floats is slow.
     static constexpr std::uint32_t kNormalFloat = 0x40000000u;
+
+    /// Nearly the logarithm of the box's area: the bits of a float, but for the least ones.
+    static float size_of(const BuildBox& box) {
+        return static_cast<float>(std::bit_cast<std::uint32_t>(static_cast<float>(box.half_area())) >> 8);
+    }
 
     BuildVector low_;
     BuildVector high_;
@@ -61,7 +76,7 @@ public:
 
     /// Axes along which the centers do not differ, or too little for a float, have one bin.
     explicit Binning(const BuildBox& centers) : low_(centers.low) {
-        for (int axis = 0; axis < 3; ++axis) {
+        for (int axis = 0; axis < kSplitAxes; ++axis) {
             const float extent = centers.high[axis] - centers.low[axis];
             const float scale = static_cast<float>(kBins) / extent;
             if (extent > 0.0f && extent < kInfinity && scale < kInfinity) scale_[axis] = scale;
@@ -92,9 +107,10 @@ struct BuildSplit {
 class SplitFinder {
 public:
     BuildSplit find(std::span<const BuildTriangle> triangles, const Binning& binning) {
-        fill(triangles, binning);
+        const int axes = triangles.size() < kFewestForSizes ? kSizeAxis : kSplitAxes;
+        fill(triangles, binning, axes);
         BuildSplit best;
-        for (int axis = 0; axis < 3; ++axis) {
+        for (int axis = 0; axis < axes; ++axis) {
             Axis& along = axes_[axis];
             if (binning.divides(axis)) along.improve(axis, best);
             along.clear();
@@ -103,6 +119,9 @@ public:
     }
 
 private:
+    /// Sets of fewer triangles are small themselves.
+    static constexpr std::size_t kFewestForSizes = 64;
+
     struct Bin {
         BuildBox box;
         std::uint32_t count = 0;
@@ -142,21 +161,21 @@ private:
         }
     };
 
-    void fill(std::span<const BuildTriangle> triangles, const Binning& binning) {
-        std::uint32_t used[3] = {0, 0, 0};
+    void fill(std::span<const BuildTriangle> triangles, const Binning& binning, int axes) {
+        std::uint32_t used[kSplitAxes] = {};
         for (const BuildTriangle& triangle : triangles) {
             const Binning::Bins bins = binning.bins_of(triangle.center());
-            for (int axis = 0; axis < 3; ++axis) {
+            for (int axis = 0; axis < axes; ++axis) {
                 Bin& bin = axes_[axis].bins[bins[axis]];
                 bin.box.add(triangle.box());
                 ++bin.count;
                 used[axis] |= 1u << bins[axis];
             }
         }
-        for (int axis = 0; axis < 3; ++axis) axes_[axis].used = used[axis];
+        for (int axis = 0; axis < axes; ++axis) axes_[axis].used = used[axis];
     }
 
-    Axis axes_[3];
+    Axis axes_[kSplitAxes];
 };
 
 }  // namespace pl

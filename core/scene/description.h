@@ -231,8 +231,8 @@ struct SceneDescription {
     std::vector<glm::vec3> vertex_colors;
     std::vector<glm::vec3> normals;
     std::vector<glm::vec2> uvs;
-    std::vector<TriangleDescription> triangles;    ///< those that are in the scene directly, then those of all meshes
-    std::vector<MeshDescription> meshes;           ///< in the order of their triangles, without gaps
+    std::vector<TriangleDescription> triangles;  ///< those that are in the scene directly, then those of all meshes
+    std::vector<MeshDescription> meshes;         ///< in the order of their triangles, without gaps
     std::vector<InstanceDescription> instances;
     std::vector<MaterialDescription> materials;
     std::vector<TextureDescription> textures;

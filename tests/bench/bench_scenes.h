@@ -25,7 +25,12 @@ inline SceneDescription open_bench_scene(const std::string& name) {
         throw Error(ErrorKind::Usage, "scene '" + name + "': expected 2 to 9999 rows behind the colon");
     const test::TemporaryFolder folder;
     const auto surroundings = is_open ? test::BallSurroundings::Open : test::BallSurroundings::Room;
-    return load_scene(test::write_bumpy_ball(folder.path(), count, surroundings).string(), assets);
+    SceneDescription scene = load_scene(test::write_bumpy_ball(folder.path(), count, surroundings).string(), assets);
+    if (!is_open) {
+        scene.camera.eye = {2.5f, 2.2f, 3.2f};  // inside
+        scene.camera.target = {0.0f, 1.1f, 0.0f};
+    }
+    return scene;
 }
 
 }  // namespace pl::bench

@@ -31,16 +31,17 @@ PL_HD inline ReceivedWeights received_weights(const PathState<F, M>& state) {
     return weights;
 }
 
-/// The reflection at a vertex of a light sample that can contribute, through the shadow ray `ray`.
+/// The reflection at a vertex of a light sample that can contribute, through the shadow ray `ray`. `emitted`: its radiance, less
+/// absorption on the way.
 template <FeatureSet F, class M>
-PL_HD inline UnweightedLight reflect_light(const ScatterPoint<F, M>& from, const DirectLight& sample, const Ray& ray,
-                                           const ReceivedWeights& weights) {
+PL_HD inline UnweightedLight reflect_light(const ScatterPoint<F, M>& from, const DirectLight& sample, Vec3f emitted,
+                                           const Ray& ray, const ReceivedWeights& weights) {
     const Vec3f reflectance = from.bsdf.eval(from.surface, sample.wi, sample.cos_i);
     UnweightedLight light{.ray = ray, .wi = sample.wi, .pdf_sa = sample.pdf_sa};
     light.cluster = sample.cluster;
-    light.contribution = weights.throughput * reflectance * sample.emitted;
-    light.reflected = reflectance * sample.emitted;
-    light.irradiance = rms(sample.emitted) * (kInvPi * sample.cos_i);
+    light.contribution = weights.throughput * reflectance * emitted;
+    light.reflected = reflectance * emitted;
+    light.irradiance = rms(emitted) * (kInvPi * sample.cos_i);
     if constexpr (F.has_any(kLobeFeatures)) {
         // The radiance of a specular chain is that of its scattered directions.
         light.reflected = from.bsdf.is_specular() ? Vec3f{0.0f} : weights.chain * light.reflected;
@@ -51,12 +52,14 @@ PL_HD inline UnweightedLight reflect_light(const ScatterPoint<F, M>& from, const
 /// The reflection at a vertex of a light sample that can contribute, through the glass around the path. `ray`: shadow_ray_to().
 template <FeatureSet F, Method M>
 PL_HD_INLINED UnweightedLight unweighted_light(const PathContext<M>& context, const ScatterPoint<F, M>& from,
-                                               DirectLight sample, const Ray& ray, const ReceivedWeights& weights) {
+                                               const DirectLight& sample, const Ray& ray,
+                                               const ReceivedWeights& weights) {
+    Vec3f emitted = sample.emitted;
     if constexpr (kTracksMedium<F>) {
         const std::uint32_t medium = medium_towards(from.surface, from.bsdf, sample.wi, weights.medium);
-        sample.emitted *= shadow_transmittance(context.scene, medium, ray);
+        emitted *= shadow_transmittance(context.scene, medium, ray);
     }
-    return reflect_light(from, sample, ray, weights);
+    return reflect_light(from, sample, emitted, ray, weights);
 }
 
 /// Samples a light at a vertex, by the numbers `u`.

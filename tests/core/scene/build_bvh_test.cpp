@@ -266,6 +266,27 @@ TEST_CASE("The first split separates clusters") {
     CHECK(right.low.x > 8.0f);
 }
 
+// Walls of a room have their centers among the things inside: no plane separates them.
+TEST_CASE("The first split separates large triangles from small ones among them") {
+    Uniforms random(3);
+    Mesh mesh;
+    for (int i = 0; i < 1000; ++i) {
+        const Vec3f p = random.cube(-1, 1);
+        mesh.add(p, p + Vec3f{0.1f, 0, 0}, p + Vec3f{0, 0.1f, 0});
+    }
+    for (const float side : {-5.0f, 5.0f}) {
+        mesh.add({side, -5, -5}, {side, 5, 5}, {side, 5, -5});
+        mesh.add({-5, side, -5}, {5, side, 5}, {5, side, -5});
+        mesh.add({-5, -5, side}, {5, 5, side}, {5, -5, side});
+    }
+    const Bvh bvh = mesh.build();
+    REQUIRE(bvh.nodes[0].count == 0);
+    const BvhNode& left = bvh.nodes[bvh.nodes[0].first];
+    const BvhNode& right = bvh.nodes[bvh.nodes[0].first + 1];
+    CHECK(max_component(glm::max(absolute(left.low), absolute(left.high))) < 1.2f);
+    CHECK(right.low.x == -5.0f);
+}
+
 TEST_CASE("Every split is the cheapest between sixteen bins along each axis") {
     for (const int triangles : {2, 10, 3000}) {
         const Mesh mesh = random_mesh(triangles);
