@@ -2,54 +2,42 @@
 #pragma once
 
 #include "core/base/error.h"
-#include "cpu/cpu_backend.h"
+#include "tests/session/forwarding_backend.h"
 
 namespace pl::test {
 
 /// The CPU back end, until one of its functions is made to fail.
-class FailingBackend final : public RenderBackend {
+class FailingBackend final : public ForwardingBackend {
 public:
     enum class Failure { None, Scene, Volumes, Tables, Download, Pass };
 
     Failure failure = Failure::None;
 
-    BackendInfo info() const override { return inner_->info(); }
     void upload_scene(std::shared_ptr<const HostScene> scene) override {
         check(Failure::Scene);
-        inner_->upload_scene(std::move(scene));
+        ForwardingBackend::upload_scene(std::move(scene));
     }
     void upload_volumes(std::shared_ptr<const HostVolumes> volumes, const FieldShape& shape) override {
         check(Failure::Volumes);
-        inner_->upload_volumes(std::move(volumes), shape);
+        ForwardingBackend::upload_volumes(std::move(volumes), shape);
     }
     void upload_field(MethodId method, HostField tables) override {
         check(Failure::Tables);
-        inner_->upload_field(method, std::move(tables));
+        ForwardingBackend::upload_field(method, std::move(tables));
     }
     HostField download_field(MethodId method) const override {
         check(Failure::Download);
-        return inner_->download_field(method);
+        return ForwardingBackend::download_field(method);
     }
-    bool has_field(MethodId method) const override { return inner_->has_field(method); }
-    void reset_film(FilmSlot slot, int width, int height) override { inner_->reset_film(slot, width, height); }
-    FilmReading read_film(FilmSlot slot) const override { return inner_->read_film(slot); }
-    FilmReading read_halves(FilmSlot slot) const override { return inner_->read_halves(slot); }
-    std::vector<std::uint32_t> invalid_samples(FilmSlot slot) const override { return inner_->invalid_samples(slot); }
-    DisplayFrame show_film(FilmSlot slot, const FrameStyle& style) override { return inner_->show_film(slot, style); }
-    float largest_value(FilmSlot slot) override { return inner_->largest_value(slot); }
     PassCounters run_pass(const PassRequest& request) override {
         check(Failure::Pass);
-        return inner_->run_pass(request);
+        return ForwardingBackend::run_pass(request);
     }
-    PassCounters precompute(const PrecomputeRequest& request) override { return inner_->precompute(request); }
-    void update_field(MethodId method) override { inner_->update_field(method); }
 
 private:
     void check(Failure asked) const {
         if (failure == asked) throw Error(ErrorKind::Unavailable, "the device is gone");
     }
-
-    std::shared_ptr<RenderBackend> inner_ = make_cpu_backend({.threads = 1});
 };
 
 }  // namespace pl::test
