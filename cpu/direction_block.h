@@ -1,10 +1,10 @@
-// Directions at the Lambert reflectors of a block, and the densities of directions towards lights, by the means that a method has: SIMD
+// Directions at the Lambert reflectors of a block (VertexBlock or LaneBlock), and the densities of directions towards lights, by the means that a method has: SIMD
 // lanes for tables and for the BSDF, else path by path. Those of its other vertices are arbitrary.
 #pragma once
 
 #include "core/kernel/integrator/probe.h"
+#include "cpu/lane_kernels.h"
 #include "cpu/training_queue.h"
-#include "cpu/vertex_block.h"
 
 namespace pl {
 
@@ -16,57 +16,55 @@ concept LambertSampled = Method<M> &&(std::same_as<M, DefaultMethod> || std::sam
 template <FeatureSet F, Method M>
 class DirectionBlock {
 public:
-    DirectionBlock(const PathSettings& settings, const M& method) : settings_(settings), method_(method) {}
+    explicit DirectionBlock(const M& method) : method_(method) {}
 
-    /// Told of the last vertex of the block, which was `from`.
-    void add(const VertexBlock<F, M>& block, const ScatterPoint<F, M>& from, Vec4f u) {
-        surfaces_[block.count() - 1] = from.surface;
-        numbers_[block.count() - 1] = u;
+    /// Told that no vertex is in the block.
+    void clear() {}
+    /// Told that vertex i of the block is `from`.
+    void add(const auto& /*block*/, std::uint32_t i, const ScatterPoint<F, M>& from, const ScatterNumbers& numbers) {
+        surfaces_[i] = from.surface;
+        numbers_[i] = numbers;
     }
     /// Told that all vertices are added.
-    void complete(const VertexBlock<F, M>&) {}
+    void complete(const auto& /*block*/) {}
     /// Evaluates the densities of the method towards the lights of all vertices.
-    void weigh_lights(const VertexBlock<F, M>& block, const LightSampleGroup* lights) {
-        for (std::uint32_t i = 0; i < block.count(); ++i) {
+    void weigh_lights(const auto& block, const LightSampleGroup* lights) {
+        block.for_lambert([&](std::uint32_t i) {
             const std::uint32_t lane = i % kGroupSize;
             const LightSampleGroup& group = lights[i / kGroupSize];
-            if (block.is_layered(i) || !(group.pdf_sa[lane] > 0.0f)) continue;
+            if (!(group.pdf_sa[lane] > 0.0f)) return;
             directions_[i / kGroupSize].pdf_sa[lane] =
                 method_.pdf_sa(block.vertex(i), surfaces_[i], group.wi.get(lane));
-        }
+        });
     }
-    /// Samples a direction at every Lambert reflector whose path continues. `states`: of all paths of the batch.
-    void sample(const VertexBlock<F, M>& block, const PathState<F, M>* states) {
+    /// Samples a direction at every Lambert reflector whose path continues.
+    void sample(const auto& block) {
         block.for_continuing_lambert([&](std::uint32_t i) {
-            const PathState<F, M>& state = states[block.path(i)];
-            const ScatterNumbers numbers = scatter_numbers(settings_, state, numbers_[i]);
             directions_[i / kGroupSize].set(i % kGroupSize,
-                                            method_.sample_direction(block.vertex(i), surfaces_[i], numbers));
+                                            method_.sample_direction(block.vertex(i), surfaces_[i], numbers_[i]));
         });
     }
     const DirectionGroup* groups() const { return directions_; }
 
 private:
-    const PathSettings& settings_;
     const M& method_;
     SurfacePoint surfaces_[kPathBlock];
-    Vec4f numbers_[kPathBlock];
+    ScatterNumbers numbers_[kPathBlock];
     DirectionGroup directions_[kBlockGroups];
 };
 
 template <FeatureSet F, LambertSampled M>
 class DirectionBlock<F, M> {
 public:
-    DirectionBlock(const PathSettings&, const M&) {}
+    explicit DirectionBlock(const M&) {}
 
-    void add(const VertexBlock<F, M>&, const ScatterPoint<F, M>&, Vec4f) {}
-    void complete(const VertexBlock<F, M>&) {}
-    void weigh_lights(const VertexBlock<F, M>& block, const LightSampleGroup* lights) {
+    void clear() {}
+    void add(const auto&, std::uint32_t, const ScatterPoint<F, M>&, const ScatterNumbers&) {}
+    void complete(const auto&) {}
+    void weigh_lights(const auto& block, const LightSampleGroup* lights) {
         kernels_.weigh_lambert(block.groups(), lights, directions_, block.group_count());
     }
-    void sample(const VertexBlock<F, M>& block, const PathState<F, M>*) {
-        kernels_.sample_lambert(block.groups(), directions_, block.group_count());
-    }
+    void sample(const auto& block) { kernels_.sample_lambert(block.groups(), directions_, block.group_count()); }
     const DirectionGroup* groups() const { return directions_; }
 
 private:
@@ -96,40 +94,34 @@ inline ServedPoint<One> served_point(const TableField& field, const TableLocatio
 template <FeatureSet F, TableGuided M>
 class DirectionBlock<F, M> {
 public:
-    DirectionBlock(const PathSettings&, const M& method) : method_(method) {}
+    explicit DirectionBlock(const M& method) : method_(method) {}
 
+    void clear() {
+        for (GuidedGroup& group : groups_) std::fill_n(group.volume, kGroupSize, kNoVolume);
+    }
     /// Prefetches the rows of the vertex's table.
-    void add(const VertexBlock<F, M>& block, const ScatterPoint<F, M>& from, Vec4f) {
+    void add(const auto& block, std::uint32_t i, const ScatterPoint<F, M>& from, const ScatterNumbers&) {
+        if (block.is_layered(i) || !from.vertex.is_served()) return;
         const TableField& field = method_.field;
-        const std::uint32_t last = block.count() - 1;
-        GuidedGroup& group = groups_[last / kGroupSize];
-        const std::uint32_t lane = last % kGroupSize;
-        group.volume[lane] = kNoVolume;
-        if (!block.is_layered(last) && from.vertex.is_served()) {
-            __builtin_prefetch(field.row_cdf.data + from.vertex.volume * field.cells.side);
-            group.set_volume(lane, served_point(field, from.vertex, from.surface),
-                             method_.bsdf_fraction(from.vertex));
-        }
-        if (lane + 1 == kGroupSize) sample_rows(block, last / kGroupSize);
+        __builtin_prefetch(field.row_cdf.data + from.vertex.volume * field.cells.side);
+        groups_[i / kGroupSize].set_volume(i % kGroupSize, served_point(field, from.vertex, from.surface),
+                                           method_.bsdf_fraction(from.vertex));
     }
-    void complete(const VertexBlock<F, M>& block) {
-        if (block.count() % kGroupSize != 0) sample_rows(block, block.count() / kGroupSize);
+    void complete(const auto& block) {
+        for (std::uint32_t group = 0; group < block.group_count(); ++group)
+            kernels_.sample_rows(sampler_of(method_.field), block.groups()[group], groups_[group], sampled_[group]);
     }
-    void weigh_lights(const VertexBlock<F, M>& block, const LightSampleGroup* lights) {
+    void weigh_lights(const auto& block, const LightSampleGroup* lights) {
         kernels_.weigh_guided(sampler_of(method_.field), block.groups(), groups_, lights, directions_,
                               block.group_count());
     }
-    void sample(const VertexBlock<F, M>& block, const PathState<F, M>*) {
+    void sample(const auto& block) {
         kernels_.sample_guided(sampler_of(method_.field), block.groups(), groups_, sampled_, directions_,
                                block.group_count());
     }
     const DirectionGroup* groups() const { return directions_; }
 
 private:
-    void sample_rows(const VertexBlock<F, M>& block, std::uint32_t group) {
-        kernels_.sample_rows(sampler_of(method_.field), block.groups()[group], groups_[group], sampled_[group]);
-    }
-
     const M& method_;
     LaneKernels kernels_ = best_lane_kernels();
     GuidedGroup groups_[kBlockGroups];

@@ -34,6 +34,17 @@ PL_INLINE WordBlock load_block(const void* structures, const std::int32_t (&inde
         {join_pairs<0>(xy01, xy23), join_pairs<2>(xy01, xy23), join_pairs<0>(zw01, zw23), join_pairs<2>(zw01, zw23)}};
 }
 
+/// The vectors at index[lane] of an array of at least two: four words each, from the one before the vector on, in whole loads.
+PL_INLINE Real3<Lanes> load_vectors(const Vec3f* array, const LaneInt& index) {
+    const LaneInt is_first = index == 0;  // nothing is before it: true is -1
+    std::int32_t words[kLaneWidth];
+    store_lanes(index * 3 - 1 - is_first, words);
+    const WordBlock block = load_block<1>(array, words, 0);
+    return {Lanes::from_bits(select(is_first, block.rows[0], block.rows[1])),
+            Lanes::from_bits(select(is_first, block.rows[1], block.rows[2])),
+            Lanes::from_bits(select(is_first, block.rows[2], block.rows[3]))};
+}
+
 /// The members of arrays of structures that consist of 32-bit words.
 template <class T>
 class Words {
@@ -43,14 +54,15 @@ public:
         if constexpr (kSize >= 4) {
             std::int32_t indices[kLaneWidth];
             store_lanes(index, indices);
-            for (std::size_t i = 0; i < kBlocks; ++i) blocks_[i] = load_block<kSize>(array, indices, 4 * i);
+            for (std::size_t i = 0; i < kBlocks; ++i) blocks_[i] = load_block<kSize>(array, indices, first_of(i));
         }
     }
 
     PL_INLINE LaneInt integer(std::size_t offset) const {
         const std::size_t word = offset / 4;
-        if (word < 4 * kBlocks) return blocks_[word / 4].rows[word % 4];
-        return Lanes::load_word(words_, first_ + static_cast<std::int32_t>(word));
+        if (kBlocks == 0) return Lanes::load_word(words_, first_ + static_cast<std::int32_t>(word));
+        const std::size_t block = word / 4;
+        return blocks_[block].rows[word - first_of(block)];
     }
     PL_INLINE LaneFloat real(std::size_t offset) const { return Lanes::from_bits(integer(offset)); }
     PL_INLINE Real3<Lanes> vector(std::size_t offset) const {
@@ -59,7 +71,12 @@ public:
 
 private:
     static constexpr std::int32_t kSize = sizeof(T) / 4;
-    static constexpr std::size_t kBlocks = kSize / 4;  ///< words beyond them are gathered
+    /// Structures of fewer words than a block are gathered.
+    static constexpr std::size_t kBlocks = kSize < 4 ? 0 : (kSize + 3) / 4;
+    /// The last block ends with the structure.
+    static constexpr std::size_t first_of(std::size_t block) {
+        return 4 * block + 4 <= kSize ? 4 * block : static_cast<std::size_t>(kSize) - 4;
+    }
 
     const T* words_;
     LaneInt first_;

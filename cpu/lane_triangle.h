@@ -38,6 +38,16 @@ template <class Real>
     return ~(any_negative & any_positive) & (e.u + e.v + e.w != 0.0f);
 }
 
+/// The same for edge functions in registers, which the rare call alone puts into memory.
+template <class Real>
+PL_INLINE MaskOf<Real> repeat_exactly_in(const RayCorner<Real>& a, const RayCorner<Real>& b, const RayCorner<Real>& c,
+                                         std::uint32_t lanes, EdgeFunctions<Real>& e) {
+    EdgeFunctions<Real> repeated = e;
+    const MaskOf<Real> inside = repeat_exactly(a, b, c, lanes, repeated);
+    e = repeated;
+    return inside;
+}
+
 /// Which lanes' lines cross their triangles, and the edge functions there.
 template <class Real>
 struct LineTest {
@@ -50,11 +60,7 @@ PL_INLINE LineTest<Real> test_lines(const RayCorner<Real>& a, const RayCorner<Re
     EdgeFunctions<Real> e = edge_functions(a, b, c);
     MaskOf<Real> inside = same_sign(e.u, e.v) & same_sign(e.u, e.w);
     const std::uint32_t zero = mask_bits((e.u == 0.0f) | (e.v == 0.0f) | (e.w == 0.0f));
-    if (__builtin_expect(zero != 0, 0)) {
-        EdgeFunctions<Real> repeated = e;
-        inside = repeat_exactly(a, b, c, zero, repeated);
-        e = repeated;
-    }
+    if (__builtin_expect(zero != 0, 0)) inside = repeat_exactly_in(a, b, c, zero, e);
     return {e, inside};
 }
 

@@ -73,11 +73,6 @@ PL_INLINE LaneFloat magnitude(LaneFloat x) {
     return std::bit_cast<LaneFloat>(std::bit_cast<LaneUint>(x) & 0x7fffffffu);
 }
 
-/// See to_unit_float.
-PL_INLINE LaneFloat to_unit_lanes(LaneUint bits) {
-    return __builtin_convertvector(std::bit_cast<LaneInt>(bits >> 8), LaneFloat) * 0x1p-24f;
-}
-
 /// Vector of half as many lanes, of 64 bits each.
 using LaneWide = std::uint64_t __attribute__((vector_size(4 * kLaneWidth)));
 

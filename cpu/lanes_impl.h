@@ -2,6 +2,7 @@
 // are set in CMakeLists.txt. All definitions have internal linkage; see lanes.h.
 #pragma once
 
+#include "cpu/camera_lanes.h"
 #include "cpu/dense_lanes.h"
 #include "cpu/far_lanes.h"
 #include "cpu/guided_lanes.h"
@@ -9,6 +10,8 @@
 #include "cpu/light_lanes.h"
 #include "cpu/light_tree_lanes.h"
 #include "cpu/lookup_lanes.h"
+#include "cpu/path_lanes.h"
+#include "cpu/shadow_lanes.h"
 #include "cpu/update_lanes.h"
 #include "cpu/vertex_lanes.h"
 #include "cpu/wide_lanes.h"
@@ -47,6 +50,13 @@ void draw(const DrawKey& key, const CounterGroup* counters, NumberGroup* numbers
 
 void draw_vertices(const DrawKey& key, const CounterGroup* counters, NumberGroup* numbers, std::uint32_t groups) {
     draw_vertex_groups(key, counters, numbers, groups);
+}
+
+void find_camera_directions(const Camera& camera, const PixelGrid& grid, const CounterGroup* counters,
+                            const NumberGroup* numbers, VectorGroup* directions, std::uint32_t groups) {
+    for (std::uint32_t group = 0; group < groups; ++group)
+        for (std::uint32_t first = 0; first < kGroupSize; first += kLaneWidth)
+            CameraLanes(camera, grid, first).find(counters[group], numbers[group], directions[group]);
 }
 
 void find_points(const PlacementRows& scene, const RayGroup* rays, const HitGroup* hits, PointGroup* points,
@@ -135,6 +145,35 @@ void scatter(const VertexGroup* vertices, const DirectionGroup* directions, Scat
     });
 }
 
+void reach_vertices(const SurfaceRows& scene, std::uint32_t max_depth, const BlockRows& block, SegmentMarks& marks) {
+    reach_vertices_of_groups(scene, max_depth, block, marks);
+}
+
+void play_roulette(const PathSettings& settings, const BlockRows& block, const float* estimates,
+                   BlockBits& continuing) {
+    mark_path_lanes(block, continuing, [&](const PathLanes& lanes, std::uint32_t group) {
+        const float* of_group = estimates == nullptr ? nullptr : estimates + group * kGroupSize;
+        return lanes.play_roulette(settings, block.scatter[group], of_group);
+    });
+}
+
+void scatter_paths(const BlockRows& block, const DirectionGroup* directions, RayGroup* rays, BlockBits& lit) {
+    mark_path_lanes(block, lit, [&](const PathLanes& lanes, std::uint32_t group) {
+        return lanes.scatter(directions[group], rays[group]);
+    });
+}
+
+std::uint32_t pack_shadow_rays(const BlockRows& block, const LightSampleGroup* samples, BlockBits& lit,
+                               LitGroup* kept, RayGroup* rays, std::uint32_t count) {
+    return pack_shadow_rays_of_groups(block.vertices, samples, lit, kept, rays, count, block.groups);
+}
+
+void connect_paths(const LitGroup* lights, const BlockBits& lit, PathGroup* paths, std::uint32_t groups) {
+    for (std::uint32_t group = 0; group < groups; ++group)
+        for (std::uint32_t first = 0; first < kGroupSize; first += kLaneWidth)
+            ConnectedLanes(paths[group], first).add(lights[group], lit.groups[group]);
+}
+
 bool has_samples(const TableUpdateView& field, std::uint32_t volume) { return any_sample_in_lanes(field, volume); }
 
 bool update_table(const TableUpdateView& field, std::uint32_t volume) { return update_table_in_lanes(field, volume); }
@@ -149,6 +188,7 @@ constexpr LaneKernels lane_kernels_named(const char* name) {
             find_occluding_instances,
             draw,
             draw_vertices,
+            find_camera_directions,
             find_points,
             read_cells,
             find_nearest,
@@ -164,6 +204,11 @@ constexpr LaneKernels lane_kernels_named(const char* name) {
             sample_far_lights,
             weigh_lights,
             scatter,
+            reach_vertices,
+            play_roulette,
+            scatter_paths,
+            pack_shadow_rays,
+            connect_paths,
             has_samples,
             update_table};
 }

@@ -1,8 +1,8 @@
-// Light samples at the vertices of a block: lights are chosen in SIMD lanes, and sampled there at Lambert reflectors.
+// Light samples at the vertices of a block (VertexBlock or LaneBlock): lights are chosen in SIMD lanes, and sampled there at Lambert reflectors.
 #pragma once
 
+#include "core/kernel/integrator/light_sample.h"
 #include "cpu/light_table.h"
-#include "cpu/vertex_block.h"
 
 namespace pl {
 
@@ -11,7 +11,7 @@ template <FeatureSet F, Method M>
 struct LearnedLightsBlock {
     explicit LearnedLightsBlock(const M&) {}
     const float* numbers() const { return nullptr; }
-    void find(const VertexBlock<F, M>&) {}
+    void find(const auto& /*block*/) {}
 
     LearnedLightsGroup groups[kBlockGroups];
 };
@@ -19,7 +19,7 @@ template <FeatureSet F, Method M>
 requires(learns_lights<F, M>) struct LearnedLightsBlock<F, M> {
     explicit LearnedLightsBlock(const M& method) : method_(method) {}
     const float* numbers() const { return method_.field.light_cdf.data; }
-    void find(const VertexBlock<F, M>& block) {
+    void find(const auto& block) {
         for (std::uint32_t i = 0; i < block.count(); ++i)
             groups[i / kGroupSize].set(i % kGroupSize, learned_lights<F>(method_, block.vertex(i)).learned(),
                                        numbers());
@@ -46,11 +46,10 @@ public:
                const LaneKernels& kernels = best_lane_kernels())
         : context_(context), lights_(lights), kernels_(kernels), learned_(context.method) {}
 
-    void sample(const VertexBlock<F, M>& block) {
+    void sample(const auto& block) {
         if (lanes_pay()) sample_in_lanes(block);
         if (far_lights_are_in_lanes()) sample_far_in_lanes(block);
-        for (std::uint32_t i = 0; i < block.count(); ++i) {
-            if (block.is_layered(i)) continue;
+        block.for_lambert([&](std::uint32_t i) {
             if (!is_far_in_lanes(block, i)) {
                 if (is_triangle_in_lanes(block, i))
                     look_up_emission(i);
@@ -58,11 +57,11 @@ public:
                     sample_lambert(block, i);
             }
             if constexpr (kTracksMedium<F>) absorb(block, i);
-        }
+        });
     }
     /// Weighs the samples at Lambert reflectors by multiple importance sampling. `directions`: densities of the method in their
     /// directions.
-    void weigh(const VertexBlock<F, M>& block, const DirectionGroup* directions) {
+    void weigh(const auto& block, const DirectionGroup* directions) {
         kernels_.weigh_lights(block.groups(), directions, samples_, block.group_count());
     }
 
@@ -91,7 +90,7 @@ public:
                 .target = from.target[lane]};
     }
     /// The light sample of a vertex that is layered.
-    UnweightedLight sample_layered(const VertexBlock<F, M>& block, std::uint32_t i) const {
+    UnweightedLight sample_layered(const auto& block, std::uint32_t i) const {
         const ScatterPoint<F, M>& from = block.layered(i);
         const bool is_in_lanes = is_triangle_in_lanes(block, i);
         const DirectLight sample =
@@ -121,7 +120,7 @@ private:
         }
         return true;
     }
-    void sample_in_lanes(const VertexBlock<F, M>& block) {
+    void sample_in_lanes(const auto& block) {
         const LightRows lights = lights_->rows(context_.scene.light_power);
         if constexpr (F.has(Feature::ManyLights)) {
             const LightTree& tree = context_.scene.light_tree;
@@ -142,7 +141,7 @@ private:
         if constexpr (F.has(Feature::EnvironmentMap)) return scene.far_probability > 0.0f;
         return false;
     }
-    void sample_far_in_lanes([[maybe_unused]] const VertexBlock<F, M>& block) {
+    void sample_far_in_lanes([[maybe_unused]] const auto& block) {
         if constexpr (F.has(Feature::EnvironmentMap)) {
             const SceneView& scene = context_.scene;
             kernels_.sample_far_lights({&scene.far_lights, scene.far_probability}, block.groups(), far_.groups,
@@ -150,18 +149,17 @@ private:
         }
     }
     /// Whether the sample of vertex i is that of the far lights that was made in lanes.
-    bool is_far_in_lanes([[maybe_unused]] const VertexBlock<F, M>& block, [[maybe_unused]] std::uint32_t i) const {
+    bool is_far_in_lanes([[maybe_unused]] const auto& block, [[maybe_unused]] std::uint32_t i) const {
         if constexpr (F.has(Feature::EnvironmentMap))
             return far_lights_are_in_lanes() && block.light_numbers(i).w < context_.scene.far_probability;
         return false;
     }
     /// Whether the sample of vertex i is that of an emissive triangle that was made in lanes.
-    bool is_triangle_in_lanes(const VertexBlock<F, M>& block, std::uint32_t i) const {
+    bool is_triangle_in_lanes(const auto& block, std::uint32_t i) const {
         return lanes_pay() && !is_far_in_lanes(block, i) && group(i).is_near[i % kGroupSize] == 0;
     }
     template <class B>
-    DirectLight sample_alone(const VertexBlock<F, M>& block, std::uint32_t i, const SurfacePoint& surface,
-                             const B& bsdf) const {
+    DirectLight sample_alone(const auto& block, std::uint32_t i, const SurfacePoint& surface, const B& bsdf) const {
         if constexpr (F.has(Feature::EnvironmentMap)) {
             if (is_far_in_lanes(block, i))
                 return far_light_from(context_.scene, surface, bsdf, far_.groups[i / kGroupSize].get(i % kGroupSize));
@@ -175,7 +173,7 @@ private:
             context_.scene, surface, bsdf,
             sample_chosen_light<F>(context_.scene, chosen, Receiver::of(surface), {u.y, u.z}));
     }
-    void sample_lambert(const VertexBlock<F, M>& block, std::uint32_t i) {
+    void sample_lambert(const auto& block, std::uint32_t i) {
         const SurfacePoint surface = block.surface(i);
         const DirectLight sample = sample_alone(block, i, surface, LambertBsdf{block.albedo(i)});
         LightSampleGroup& to = group(i);
@@ -227,7 +225,7 @@ private:
     }
 
     /// Absorption in the glass around a vertex.
-    void absorb(const VertexBlock<F, M>& block, std::uint32_t i) {
+    void absorb(const auto& block, std::uint32_t i) {
         if (context_.scene.absorption.empty() || block.medium(i) == kNoMedium || !is_wanted(i)) return;
         LightSampleGroup& to = group(i);
         const std::uint32_t lane = i % kGroupSize;

@@ -16,9 +16,9 @@ public:
         const LaneInt primitive = select(hit == static_cast<std::int32_t>(kNoPrimitive), LaneInt{}, hit);
         const Words<Triangle> triangle(scene_.triangles, primitive);
         const Words<TrianglePlane> plane(scene_.planes, primitive);
-        const CornersOf<Lanes> corners{corner(triangle.integer(offsetof(Triangle, v0))),
-                                       corner(triangle.integer(offsetof(Triangle, v1))),
-                                       corner(triangle.integer(offsetof(Triangle, v2)))};
+        const CornersOf<Lanes> corners{load_vectors(scene_.positions, triangle.integer(offsetof(Triangle, v0))),
+                                       load_vectors(scene_.positions, triangle.integer(offsetof(Triangle, v1))),
+                                       load_vectors(scene_.positions, triangle.integer(offsetof(Triangle, v2)))};
         const LaneFloat margin = plane.real(offsetof(TrianglePlane, edge_margin));
         const Real3<Lanes> position = corners.at(inner_barycentrics<Lanes>(row(hits.b1), row(hits.b2), margin));
         const Real3<Lanes> normal = plane.vector(offsetof(TrianglePlane, normal));
@@ -74,10 +74,6 @@ public:
 
 private:
     static constexpr std::int32_t kNodeWords = sizeof(KdNode) / 4;
-
-    PL_INLINE Real3<Lanes> corner(const LaneInt& vertex) const {
-        return Words<Vec3f>(scene_.positions, vertex).vector(0);
-    }
 
     PL_INLINE LaneInt place_of(const LaneInt& primitive, const LaneInt& front, const Real3<Lanes>& position) const {
         const auto triangles = static_cast<std::int32_t>(scene_.sided_triangles);

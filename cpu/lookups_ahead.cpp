@@ -22,7 +22,7 @@ PlacementRows rows_of(const SceneView& scene, const PlacementView& placement) {
 void LookupsAhead::begin(const SceneView& scene, const PlacementView& placement, const RayBatch& rays,
                          std::uint32_t first, std::uint32_t end) {
     first_ = first;
-    groups_ = scene.triangles.empty() ? 0 : group_count(end - first);
+    groups_ = has_surfaces(scene) ? group_count(end - first) : 0;
     wanted_ = 0;
     const std::uint32_t group = first / kGroupSize;
     kernels_.find_points(rows_of(scene, placement), rays.ray_groups() + group, rays.hit_groups() + group, points_,

@@ -33,6 +33,8 @@ public:
                std::uint32_t end);
     /// Completes the lookups. Best called after other work, which hides the latency of the prefetched cells.
     void finish(const SceneView& scene, const PlacementView& placement);
+    /// The surface points at the hits of all rays.
+    const PointGroup* points() const { return points_; }
     /// The surface point at the hit of a ray; undefined for rays that miss.
     template <FeatureSet F>
     SurfacePoint surface(const SceneView& scene, const Hit& hit, std::uint32_t ray) const {

@@ -23,6 +23,22 @@ public:
         group.vertex[lane] = state.draw_index() + 1;
     }
 
+    void move(std::uint32_t from, std::uint32_t to) {
+        const CounterGroup& source = counters_[from / kGroupSize];
+        CounterGroup& group = counters_[to / kGroupSize];
+        group.pixel[to % kGroupSize] = source.pixel[from % kGroupSize];
+        group.sample[to % kGroupSize] = source.sample[from % kGroupSize];
+        group.vertex[to % kGroupSize] = source.vertex[from % kGroupSize];
+    }
+    std::uint32_t pixel(std::uint32_t index) const { return counters_[index / kGroupSize].pixel[index % kGroupSize]; }
+    std::uint32_t sample(std::uint32_t index) const {
+        return counters_[index / kGroupSize].sample[index % kGroupSize];
+    }
+    CounterGroup* counter_groups() { return counters_.data(); }
+    const NumberGroup* scatter_groups() const { return scatter_.data(); }
+    /// Null without light sampling.
+    const NumberGroup* light_groups() const { return light_.empty() ? nullptr : light_.data(); }
+
     /// Draws the numbers of the first `count` paths.
     void draw(const PathSettings& settings, std::uint32_t count) {
         draw_rows({settings.seed, settings.stream, Purpose::Scatter}, scatter_, count);

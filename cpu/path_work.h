@@ -19,16 +19,28 @@ struct PictureWork {
 
     std::uint32_t count() const { return subset.count(film.pixels.count); }
     StartKey start_key(const PathSettings& path) const {
-        return {path.seed, path.stream, Purpose::Pixel, sequence_of(sample), subset};
+        return {.seed = path.seed,
+                .stream = path.stream,
+                .purpose = Purpose::Pixel,
+                .sample = sequence_of(sample),
+                .subset = subset,
+                .pinhole = kLaneFeatures.covers(F) ? &camera : nullptr,
+                .grid = grid()};
     }
-    PathState<F, M> begin(std::uint32_t number, Vec4f start) const {
-        const std::uint32_t pixel = subset.pixel(number);
+    PathState<F, M> begin(const PathStart& start) const {
+        const std::uint32_t pixel = subset.pixel(start.number);
         __builtin_prefetch(&film.pixels[pixel], 1);  // films exceed the cache
-        return begin_path<F, M>(camera, {film.width, film.height, sample}, pixel, start);
+        if constexpr (kLaneFeatures.covers(F))
+            return begin_path<F, M>(Ray{.origin = camera.eye, .direction = start.direction}, grid(), pixel);
+        else
+            return begin_path<F, M>(camera, grid(), pixel, start.u);
     }
     bool finish(const PathState<F, M>& state, PassCounters& counters) const {
         return use_sample(film, state.pixel, state.radiance, sample, use, counters.variance);
     }
+
+private:
+    PixelGrid grid() const { return {film.width, film.height, sample}; }
 };
 
 /// One probe per cell of every volume; adds its radiance to a table.
@@ -39,10 +51,10 @@ struct ProbeWork {
 
     std::uint32_t count() const { return probe_count(field); }
     StartKey start_key(const PathSettings& path) const {
-        return {path.seed, path.stream, Purpose::Probe, stratum.index};
+        return {.seed = path.seed, .stream = path.stream, .purpose = Purpose::Probe, .sample = stratum.index};
     }
-    PathState<F, ProbeMethod> begin(std::uint32_t probe, Vec4f u) const {
-        return begin_probe<F>(field, probe, stratum, u);
+    PathState<F, ProbeMethod> begin(const PathStart& start) const {
+        return begin_probe<F>(field, start.number, stratum, start.u);
     }
     bool finish(const PathState<F, ProbeMethod>& state, PassCounters& counters) const {
         finish_probe(field, state, counters.path.method);

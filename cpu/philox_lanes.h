@@ -30,7 +30,7 @@ PL_INLINE PhiloxWords<LaneUint> bits_lanes(const DrawKey& key, const CounterGrou
 }
 
 PL_INLINE void store_numbers(const PhiloxWords<LaneUint>& bits, NumberGroup& numbers, std::uint32_t first) {
-    for (int i = 0; i < 4; ++i) store_lanes(to_unit_lanes(bits.v[i]), numbers.rows[i] + first);
+    for (int i = 0; i < 4; ++i) store_lanes(to_unit<Lanes>(bits.v[i]), numbers.rows[i] + first);
 }
 
 PL_INLINE void draw_groups(const DrawKey& key, const CounterGroup* counters, NumberGroup* numbers,

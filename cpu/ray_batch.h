@@ -88,6 +88,7 @@ public:
         return ((occluded_[index / kGroupSize] >> (index % kGroupSize)) & 1u) != 0;
     }
 
+    RayGroup* ray_groups() { return rays_.data(); }
     const RayGroup* ray_groups() const { return rays_.data(); }
     HitGroup* hit_groups() { return hits_.data(); }
     const HitGroup* hit_groups() const { return hits_.data(); }

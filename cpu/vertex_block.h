@@ -2,10 +2,9 @@
 // and directions are sampled.
 #pragma once
 
-#include <bit>
-
 #include "core/kernel/integrator/steps.h"
-#include "cpu/lane_kernels.h"
+#include "cpu/path_groups.h"
+#include "cpu/vertex_rows.h"
 
 namespace pl {
 
@@ -22,7 +21,7 @@ struct NoLayeredVertices {
 
 /// At most kPathBlock vertices, numbered in the order of their paths.
 template <FeatureSet F, Method M>
-class VertexBlock {
+class VertexBlock : public VertexRows {
 public:
     using Vertex = typename M::Vertex;
 
@@ -40,7 +39,7 @@ public:
     /// reflector must be in next_layered(); lanes know no more of it than its light sample needs.
     void add(std::uint32_t path, const ScatterPoint<F, M>& from, const ReceivedWeights& weights,
              const VertexNumbers& numbers) {
-        VertexGroup& group = groups_[count_ / kGroupSize];
+        VertexGroup& group = groups()[count_ / kGroupSize];
         const std::uint32_t lane = count_ % kGroupSize;
         group.position.set(lane, from.surface.position);
         group.geometric_normal.set(lane, from.surface.geometric_normal);
@@ -62,24 +61,10 @@ public:
         continuing_ |= std::uint64_t{1} << last;
     }
 
-    const VertexGroup* groups() const { return groups_; }
     std::uint32_t path(std::uint32_t i) const { return paths_[i]; }
     const Vertex& vertex(std::uint32_t i) const { return vertices_[i]; }
     float roulette_weight(std::uint32_t i) const { return roulette_weights_[i]; }
     std::uint32_t medium(std::uint32_t i) const requires(kTracksMedium<F>) { return media_.of[i]; }
-    Vec3f albedo(std::uint32_t i) const { return group(i).albedo.get(i % kGroupSize); }
-    std::uint32_t primitive(std::uint32_t i) const { return group(i).primitive[i % kGroupSize]; }
-    Vec4f light_numbers(std::uint32_t i) const { return group(i).light.get(i % kGroupSize); }
-    /// Without the material and the side.
-    SurfacePoint surface(std::uint32_t i) const {
-        const VertexGroup& from = group(i);
-        const std::uint32_t lane = i % kGroupSize;
-        return {.position = from.position.get(lane),
-                .geometric_normal = from.geometric_normal.get(lane),
-                .shading_normal = from.shading_normal.get(lane),
-                .position_error = from.position_error[lane],
-                .primitive = from.primitive[lane]};
-    }
     /// Whether vertex i is not at a Lambert reflector.
     bool is_layered(std::uint32_t i) const { return ((layered_.bits >> i) & 1u) != 0; }
     /// A vertex that is_layered().
@@ -89,6 +74,8 @@ public:
     const ReceivedWeights& layered_weights(std::uint32_t i) const requires(F.has_any(kLobeFeatures)) {
         return layered_.weights[i];
     }
+    /// Calls visit(i) for every vertex at a Lambert reflector.
+    void for_lambert(const auto& visit) const { for_bits(first_bits(count_) & ~layered_.bits, visit); }
     /// Calls visit(i) for every vertex whose path continues.
     void for_continuing(const auto& visit) const { for_bits(continuing_, visit); }
     /// The same for Lambert reflectors alone.
@@ -112,10 +99,6 @@ private:
         layered_.bits |= std::uint64_t{1} << count_;
         layered_.weights[count_] = weights;
     }
-    static void for_bits(std::uint64_t bits, const auto& visit) {
-        for (; bits != 0; bits &= bits - 1) visit(static_cast<std::uint32_t>(std::countr_zero(bits)));
-    }
-    const VertexGroup& group(std::uint32_t i) const { return groups_[i / kGroupSize]; }
 
     static_assert(kPathBlock <= 64);
     std::uint32_t count_ = 0;
@@ -123,7 +106,6 @@ private:
     std::uint32_t paths_[kPathBlock];
     float roulette_weights_[kPathBlock];
     Vertex vertices_[kPathBlock];
-    VertexGroup groups_[kBlockGroups];
     [[no_unique_address]] std::conditional_t<kTracksMedium<F>, Media, NoPathMedium> media_;
     [[no_unique_address]] std::conditional_t<F.has_any(kLobeFeatures), LayeredVertices<F, M>, NoLayeredVertices>
         layered_;

@@ -42,15 +42,25 @@ public:
         store(rms(emitted) * (kInvPi * cos_i) * weight, samples.irradiance);
     }
 
-    PL_INLINE void scatter(const DirectionGroup& directions, ScatteredGroup& scattered) const {
+    /// Members as in ScatteredGroup.
+    struct Scattered {
+        LaneInt is_lit;
+        Real3<Lanes> weight, origin;
+    };
+    PL_INLINE Scattered scatter(const DirectionGroup& directions) const {
         const Real3<Lanes> wi = vector(directions.wi);
         const LaneFloat pdf_sa = row(directions.pdf_sa);
         const Real3<Lanes> normal = vector(vertices_.geometric_normal);
         const LaneFloat cos_i = reflection_cosine(normal, vector(vertices_.shading_normal), wi);
         const SpawnPoint<Lanes> from{vector(vertices_.position), normal, row(vertices_.position_error)};
-        store((pdf_sa > 0.0f) & (cos_i != 0.0f), scattered.is_lit);
-        store(scaled(lambert_eval(vector(vertices_.albedo), cos_i), 1.0f / pdf_sa), scattered.weight);
-        store(spawn_origin(from, wi), scattered.origin);
+        return {(pdf_sa > 0.0f) & (cos_i != 0.0f),
+                scaled(lambert_eval(vector(vertices_.albedo), cos_i), 1.0f / pdf_sa), spawn_origin(from, wi)};
+    }
+    PL_INLINE void scatter(const DirectionGroup& directions, ScatteredGroup& to) const {
+        const Scattered scattered = scatter(directions);
+        store(scattered.is_lit, to.is_lit);
+        store(scattered.weight, to.weight);
+        store(scattered.origin, to.origin);
     }
 
 private:

@@ -87,14 +87,19 @@ double guidance_over_table(Representation representation) {
 
 PathCosts PathCosts::of(std::size_t triangles, FeatureSet features, Representation representation) {
     constexpr std::size_t kFewTriangles = 64;  // tested one by one
-    PathCosts costs{.segment = triangles <= kFewTriangles ? 70.0 : 250.0, .guidance = 50.0};
+    const bool has_few = triangles <= kFewTriangles;
+    PathCosts costs{.segment = has_few ? 25.0 : 90.0, .guidance = has_few ? 60.0 : 75.0};
     if (features.has(Feature::NextEventEstimation)) {
-        costs.segment += features.has(Feature::ManyLights) ? 310.0 : 110.0;
-        costs.guidance += 45.0;
+        costs.segment += has_few ? 30.0 : 60.0;
+        costs.guidance += 10.0;
+        if (features.has(Feature::ManyLights)) {
+            costs.segment += 90.0;
+            costs.guidance += 25.0;
+        }
     }
     if (features.has_any(kLobeFeatures)) {
-        costs.segment += 150.0;
-        costs.guidance += 110.0;
+        costs.segment += 60.0;
+        costs.guidance += 25.0;
     }
     costs.guidance *= guidance_over_table(representation);
     return costs;

@@ -20,7 +20,7 @@ enum class GuidingRule : std::uint32_t {
 };
 
 /// Time of the parts of a path, in any unit: only ratios count. Nanoseconds on one processor, rounded from
-/// docs/notebook/2026-11-23-guiding-choice.md.
+/// docs/notebook/2026-11-28-paths-in-lanes.md.
 struct PathCosts {
     double segment = 0.0;   ///< of any path: tracing and shading
     double guidance = 0.0;  ///< of a guided path's segment, besides

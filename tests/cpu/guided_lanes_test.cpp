@@ -2,6 +2,7 @@
 #include <cstring>
 
 #include "cpu/direction_block.h"
+#include "cpu/vertex_block.h"
 #include "tests/support/catch.hpp"
 #include "tests/support/field/field_fixture.h"
 #include "tests/support/field/guided_methods.h"
@@ -93,16 +94,16 @@ TEST_CASE("Every instruction set chooses the guided directions of one path alone
 
 TEST_CASE("Without volumes a block of paths scatters by the BSDF") {
     PrecomputedMethod method;
-    const PathSettings settings;
     VertexBlock<FeatureSet{}, PrecomputedMethod> block;
-    DirectionBlock<FeatureSet{}, PrecomputedMethod> directions(settings, method);
+    DirectionBlock<FeatureSet{}, PrecomputedMethod> directions(method);
     const ScatterPoint<FeatureSet{}, PrecomputedMethod> point{.surface = SurfacePoint{}, .bsdf = {Vec3f{0.5f}}};
     block.clear();
     block.add(7, point, {}, {.scatter = {0.25f, 0.75f, 0.125f, 0.0f}});
     block.keep_last(1.0f);
-    directions.add(block, point, {});
+    directions.clear();
+    directions.add(block, 0, point, {});
     directions.complete(block);
-    directions.sample(block, nullptr);
+    directions.sample(block);
     REQUIRE(block.count() == 1);
     CHECK(block.path(0) == 7);
     const DirectionSample direction = directions.groups()[0].get(0);

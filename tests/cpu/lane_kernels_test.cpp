@@ -96,13 +96,43 @@ TEST_CASE("A source gives every path of the queue with the numbers it starts wit
     constexpr std::uint32_t kEnd = 100 + 3 * kPathChunk + 17;
     ChunkQueue queue(kFirst, kEnd, kPathChunk);
     PathSource source(queue, {.seed = 5, .stream = Stream::Picture, .purpose = Purpose::Pixel, .sample = 9});
-    std::uint32_t number = 0;
-    Vec4f u;
+    PathStart start;
     for (std::uint32_t expected = kFirst; expected < kEnd; ++expected) {
-        REQUIRE(source.next(number, u));
-        REQUIRE(number == expected);
-        REQUIRE(same_bits(u, Rng{5, Stream::Picture, number, 9}.draw(0, Purpose::Pixel)));
+        REQUIRE(source.next(start));
+        REQUIRE(start.number == expected);
+        REQUIRE(same_bits(start.u, Rng{5, Stream::Picture, expected, 9}.draw(0, Purpose::Pixel)));
     }
-    CHECK_FALSE(source.next(number, u));
-    CHECK_FALSE(source.next(number, u));
+    CHECK_FALSE(source.next(start));
+    CHECK_FALSE(source.next(start));
+}
+
+TEST_CASE("Every instruction set makes the camera rays of the scalar code, bit for bit") {
+    Camera camera;
+    camera.axis = glm::normalize(Vec3f{0.3f, -0.2f, -1.0f});
+    camera.center = camera.axis + Vec3f{0.1f, 0.05f, 0.0f};
+    camera.right = {0.7f, 0.0f, 0.21f};
+    camera.up = {0.1f, 0.6f, -0.1f};
+    Uniforms random(7);
+    for (const std::uint32_t sample : {0u, 1u, 2u, 17u, 0xffffffffu}) {
+        const PixelGrid grid{61, 43, sample};
+        CounterGroup counters[3];
+        NumberGroup numbers[3];
+        for (std::uint32_t i = 0; i < 3 * kGroupSize; ++i) {
+            counters[i / kGroupSize].pixel[i % kGroupSize] = random.below(61 * 43);
+            const Vec4f u = to_unit_floats(Rng{3, Stream::Picture, i, sample}.bits(0, Purpose::Pixel));
+            for (int row = 0; row < 4; ++row) numbers[i / kGroupSize].rows[row][i % kGroupSize] = u[row];
+        }
+        for (const LaneKernels& kernels : usable_lane_kernels()) {
+            VectorGroup directions[3];
+            kernels.find_camera_directions(camera, grid, counters, numbers, directions, 3);
+            for (std::uint32_t i = 0; i < 3 * kGroupSize; ++i) {
+                INFO(kernels.isa << ", sample " << sample << ", ray " << i);
+                const Vec4f start = numbers[i / kGroupSize].get(i % kGroupSize);
+                const Ray ray = camera_ray<FeatureSet{}>(camera, grid, counters[i / kGroupSize].pixel[i % kGroupSize],
+                                                         pixel_sample(start, sample));
+                const Vec3f direction = directions[i / kGroupSize].get(i % kGroupSize);
+                CHECK(std::memcmp(&direction, &ray.direction, sizeof direction) == 0);
+            }
+        }
+    }
 }

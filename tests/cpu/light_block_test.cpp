@@ -1,5 +1,6 @@
 // Lights that are sampled in SIMD lanes are those of the scalar code, bit for bit, by every instruction set.
 #include "cpu/light_block.h"
+#include "cpu/vertex_block.h"
 
 #include <memory>
 

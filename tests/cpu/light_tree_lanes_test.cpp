@@ -4,6 +4,7 @@
 
 #include "core/kernel/methods/default.h"
 #include "cpu/light_block.h"
+#include "cpu/vertex_block.h"
 #include "tests/cpu/room_of_lights.h"
 #include "tests/support/catch.hpp"
 

@@ -1,11 +1,14 @@
 // Films, tables and counters of batches of paths are bit-identical to those of a loop over single paths. The loop
 // uses trace_path of the kernel with the scalar BVH, so this also compares intersectors and random numbers.
+#include <algorithm>
+#include <array>
 #include <cstring>
 
 #include "core/kernel/guiding/update_volume.h"
 #include "core/kernel/integrator/lamp_borders.h"
 #include "core/kernel/integrator/probe.h"
 #include "core/kernel/integrator/trace_path.h"
+#include "cpu/lane_path_batch.h"
 #include "tests/cpu/small_room.h"
 #include "tests/support/catch.hpp"
 #include "tests/support/field/guided_methods.h"
@@ -48,14 +51,30 @@ PathSettings path_settings(bool next_event) {
     return {.seed = 77, .split_threshold = 0.25f, .next_event = next_event ? 1u : 0u};
 }
 
+/// A room without a ceiling under a constant sky, with a lamp that shines on both sides, and shading normals that lean; one has no length.
+SceneDescription open_room() {
+    SceneDescription scene = small_room();
+    scene.environment = Vec3f{0.2f, 0.3f, 0.5f};
+    scene.materials.back().two_sided_emission = true;
+    const auto is_ceiling = [&](const TriangleDescription& triangle) {
+        return std::ranges::all_of(std::array{triangle.vertex.x, triangle.vertex.y, triangle.vertex.z},
+                                   [&](std::uint32_t corner) { return scene.positions[corner].y == 1.0f; });
+    };
+    std::erase_if(scene.triangles, is_ceiling);
+    scene.normals = {Vec3f{0.1f, 1.0f, 0.05f}, Vec3f{-0.3f, 0.9f, 0.2f}, Vec3f{0.5f, 0.4f, 0.6f}, Vec3f{0.0f}};
+    for (std::size_t i = 0; i < scene.triangles.size(); i += 2) scene.triangles[i].normal = {0, 1, 2};
+    scene.triangles[3].normal = {3, 3, 3};
+    return scene;
+}
+
 /// Traces path by path.
 template <FeatureSet F, Method M>
-Outcome loop_over_paths(const Room& room) {
+Outcome loop_over_paths(const Room& room, bool next_event = F.has(Feature::NextEventEstimation)) {
     Outcome outcome{.film = {}, .tables = room.empty_tables(), .counters = {}};
     HostArray<FilmPixel> pixels(kWidth * kHeight);
     const FilmView film{view_of(pixels), kWidth, kHeight};
     const SceneView scene = room.scene->view();
-    const PathSettings settings = path_settings(F.has(Feature::NextEventEstimation));
+    const PathSettings settings = path_settings(next_event);
     const BvhIntersector intersector{scene};
     SingleRays<F, BvhIntersector> rays{scene, intersector};
     M method;
@@ -79,7 +98,13 @@ Outcome loop_over_paths(const Room& room) {
     return outcome;
 }
 
-Outcome batches(const Room& room, MethodId method, bool next_event, const CpuSettings& settings) {
+/// Effects of a pass, and whether lights are sampled.
+struct Effects {
+    FeatureSet set;
+    bool next_event = false;
+};
+
+Outcome batches(const Room& room, MethodId method, const Effects& effects, const CpuSettings& settings) {
     const auto backend = make_backend(room, settings);
     const FilmSlot slot{method, View::Beauty};
     backend->reset_film(slot, kWidth, kHeight);
@@ -87,8 +112,8 @@ Outcome batches(const Room& room, MethodId method, bool next_event, const CpuSet
     Outcome outcome;
     for (std::uint32_t sample = 0; sample < kPasses; ++sample) {
         outcome.counters += backend->run_pass({.slot = slot,
-                                               .features = next_event ? kLights : FeatureSet{},
-                                               .path = path_settings(next_event),
+                                               .features = effects.set,
+                                               .path = path_settings(effects.next_event),
                                                .camera = room.camera,
                                                .mixture = {},
                                                .sample = sample,
@@ -110,21 +135,26 @@ constexpr CpuSettings kSettings[] = {
     {.threads = 2, .intersector = IntersectorChoice::Bvh, .batch_paths = 100},
 };
 
+void check_batches(const Outcome& expected, const Room& room, MethodId method, const Effects& effects) {
+    REQUIRE(expected.counters.paths == kPasses * kWidth * kHeight);
+    REQUIRE((expected.counters.path.shadow_rays > 0) == effects.next_event);
+    REQUIRE((expected.counters.path.method.records > 0) == (method == MethodId::Reinforcement));
+    for (const CpuSettings& settings : kSettings) {
+        INFO("effects " << effects.set.bits << ", next event " << effects.next_event << ", batch "
+                        << settings.batch_paths << ", threads " << settings.threads << ", intersector "
+                        << static_cast<int>(settings.intersector));
+        CHECK(same(expected, batches(room, method, effects, settings)));
+    }
+}
+
 template <class M>
 void check_method(MethodId method) {
-    const Room room;
-    for (const bool next_event : {false, true}) {
-        const Outcome expected =
-            next_event ? loop_over_paths<kLights, M>(room) : loop_over_paths<FeatureSet{}, M>(room);
-        REQUIRE(expected.counters.paths == kPasses * kWidth * kHeight);
-        REQUIRE((expected.counters.path.shadow_rays > 0) == next_event);
-        REQUIRE((expected.counters.path.method.records > 0) == (method == MethodId::Reinforcement));
-        for (const CpuSettings& settings : kSettings) {
-            INFO("next event " << next_event << ", batch " << settings.batch_paths << ", threads " << settings.threads
-                               << ", intersector " << static_cast<int>(settings.intersector));
-            CHECK(same(expected, batches(room, method, next_event, settings)));
-        }
-    }
+    const Room closed;
+    check_batches(loop_over_paths<FeatureSet{}, M>(closed), closed, method, {FeatureSet{}, false});
+    check_batches(loop_over_paths<kLights, M>(closed), closed, method, {kLights, true});
+    const Room open(open_room());
+    for (const bool next_event : {false, true})
+        check_batches(loop_over_paths<kLaneFeatures, M>(open, next_event), open, method, {kLaneFeatures, next_event});
 }
 
 }  // namespace

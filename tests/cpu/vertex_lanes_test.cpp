@@ -2,6 +2,7 @@
 #include <cstring>
 
 #include "core/kernel/methods/default.h"
+#include "cpu/lane_kernels.h"
 #include "cpu/vertex_block.h"
 #include "tests/support/catch.hpp"
 #include "tests/support/scenes/shapes.h"

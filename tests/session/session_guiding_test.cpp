@@ -33,7 +33,7 @@ TEST_CASE("Guiding is given up where it changes nothing but the cost, by both gu
         REQUIRE(status->gain);
         INFO(info_of(method).name << ": " << *status->gain);
         CHECK(*status->gain < 0.9);
-        CHECK(*status->gain > 0.5);
+        CHECK(*status->gain > 0.3);
         CHECK_FALSE(status->pays);
         CHECK(status->unguided_passes > kPasses / 4);
         CHECK(status->trial_paths >= 40 * 40);  // two trials of half the pixels, then guided ones
@@ -147,10 +147,10 @@ TEST_CASE(
 }
 
 TEST_CASE("The map of a large picture is completed where guiding pays, whatever stops it") {
-    const SceneDescription scene = shipped_scene("thin-wall");
+    const SceneDescription scene = shipped_scene("staircase");
     RenderSettings settings = large_picture(small_settings(scene, {MethodId::Precomputed, true}));
     settings.guiding = GuidingRule::Paying;
-    settings.field.volumes = 200;
+    settings.field.volumes = 800;
     Session whole = make_session(scene, settings, 2);
     render_passes(whole, 2);
     REQUIRE(whole.guiding_status(slot_of(whole))->pays);
@@ -163,7 +163,7 @@ TEST_CASE("The map of a large picture is completed where guiding pays, whatever 
 
 TEST_CASE(
     "A large picture that guiding pays in is guided from its first pass on, by a field that the warm-up trained") {
-    const SceneDescription scene = shipped_scene("indirect");
+    const SceneDescription scene = shipped_scene("staircase");
     RenderSettings settings = large_picture(small_settings(scene, {MethodId::Reinforcement, true}));
     settings.guiding = GuidingRule::Paying;
     Session session = make_session(scene, settings);
@@ -220,10 +220,11 @@ TEST_CASE("A replay knows the passes that were not guided") {
 
 // Passes of weight 1 and 2.
 TEST_CASE("The first passes behind a warm-up weigh less where it has found hidden light") {
-    for (const auto& [name, weight] : {std::pair{"labyrinth", 3u}, std::pair{"cornell", 2u}}) {
+    for (const auto& [name, weight] : {std::pair{"staircase", 3u}, std::pair{"ceiling", 2u}}) {
         const SceneDescription scene = shipped_scene(name);
         RenderSettings settings = large_picture(small_settings(scene, {MethodId::Reinforcement, true}, 40, 40));
         settings.guiding = GuidingRule::Paying;
+        settings.field.volumes = 200;
         Session session = make_session(scene, settings, 2);
         render_passes(session, 2);
         INFO(name);

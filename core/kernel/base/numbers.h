@@ -138,6 +138,12 @@ PL_INLINE Real3<N> constant_vector(Vec3f v) {
     return {N::constant(v.x), N::constant(v.y), N::constant(v.z)};
 }
 
+/// Uniform in [0, 1): see to_unit_float().
+template <class N>
+PL_INLINE typename N::Real to_unit(const typename N::Uint& bits) {
+    return N::to_real(N::to_int(bits >> 8)) * 0x1p-24f;
+}
+
 template <class N>
 PL_INLINE typename N::Real clamp_real(typename N::Real x, float low, float high) {
     return select(x < low, N::constant(low), select(high < x, N::constant(high), x));

@@ -30,11 +30,34 @@ PL_HD inline void count_specular(const PathSettings& settings, PathState<F, M>& 
 /// RouletteRule::Spare they can keep a path but not end it sooner than the albedos alone would: weights then grow no
 /// faster than reflection reduces them, and their variance stays finite. RouletteRule::Field uses the field's
 /// estimate alone.
+template <class N>
+PL_INLINE typename N::Real survival_probability(const PathSettings& settings, const typename N::Real& estimate,
+                                                const typename N::Real& survival) {
+    typename N::Real wanted = survival;
+    if (settings.roulette != RouletteRule::Albedo) {
+        wanted = estimate / settings.roulette_threshold;
+        if (settings.roulette == RouletteRule::Spare)
+            wanted = select(static_cast<typename N::Mask>(wanted < survival), survival, wanted);
+    }
+    return clamp_real<N>(wanted, kMinSurvival, 1.0f);
+}
 PL_HD inline float survival_probability(const PathSettings& settings, float estimate, float survival) {
-    float wanted = survival;
-    if (settings.roulette == RouletteRule::Spare) wanted = max_of(estimate / settings.roulette_threshold, survival);
-    if (settings.roulette == RouletteRule::Field) wanted = estimate / settings.roulette_threshold;
-    return clamp_to(wanted, kMinSurvival, 1.0f);
+    return survival_probability<One>(settings, estimate, survival);
+}
+
+/// A round of Russian roulette, for one path or for a vector of them.
+template <class N>
+struct RouletteRound {
+    typename N::Mask ends;      ///< the path ends here
+    typename N::Real weight;    ///< of a path that goes on: 1 / survival probability
+    typename N::Real survival;  ///< PathState::survival afterwards
+};
+/// `survival`: PathState::survival, that of the last vertex included; u in [0, 1).
+template <class N>
+PL_INLINE RouletteRound<N> play_roulette(const PathSettings& settings, const typename N::Real& estimate,
+                                         const typename N::Real& survival, const typename N::Real& u) {
+    const auto probability = survival_probability<N>(settings, estimate, survival);
+    return {u >= probability, 1.0f / probability, min_real<N>(survival / probability, 1.0f)};
 }
 
 /// The continuation of a path at a vertex.
@@ -69,11 +92,11 @@ PL_HD inline Continuation play_roulette(const M& method, const PathSettings& set
         if (estimate > settings.split_threshold && state.branches.room() > 1 && medium_of(state) == kNoMedium)
             return split(settings, estimate, u, state);
     }
-    const float probability = survival_probability(settings, estimate, state.survival);
-    if (u >= probability) return {};
-    state.throughput *= 1.0f / probability;
-    state.survival = min_of(state.survival / probability, 1.0f);
-    return {.branches = 1, .weight = 1.0f / probability};
+    const RouletteRound<One> round = play_roulette<One>(settings, estimate, state.survival, u);
+    if (round.ends) return {};
+    state.throughput *= round.weight;
+    state.survival = round.survival;
+    return {.branches = 1, .weight = round.weight};
 }
 
 }  // namespace pl

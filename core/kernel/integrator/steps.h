@@ -63,15 +63,20 @@ PL_HD inline Ray camera_ray(const Camera& camera, const PixelGrid& grid, std::ui
     return ray;
 }
 
+/// Starts a path along a camera ray.
+template <FeatureSet F, class M>
+PL_HD inline PathState<F, M> begin_path(const Ray& ray, const PixelGrid& grid, std::uint32_t pixel) {
+    PathState<F, M> state;
+    state.ray = ray;
+    state.pixel = pixel;
+    state.sample = grid.sample;
+    return state;
+}
 /// Starts a path at the camera; `start` is the first number of the pixel's sequence, see pixel_sample().
 template <FeatureSet F, class M>
 PL_HD inline PathState<F, M> begin_path(const Camera& camera, const PixelGrid& grid, std::uint32_t pixel,
                                         Vec4f start) {
-    PathState<F, M> state;
-    state.ray = camera_ray<F>(camera, grid, pixel, pixel_sample(start, grid.sample));
-    state.pixel = pixel;
-    state.sample = grid.sample;
-    return state;
+    return begin_path<F, M>(camera_ray<F>(camera, grid, pixel, pixel_sample(start, grid.sample)), grid, pixel);
 }
 
 template <FeatureSet F, class M>

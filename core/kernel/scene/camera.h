@@ -1,6 +1,7 @@
 // The camera: a pinhole or a thin lens.
 #pragma once
 
+#include "core/kernel/base/numbers.h"
 #include "core/kernel/base/warp.h"
 #include "core/kernel/geometry/ray.h"
 
@@ -18,11 +19,18 @@ struct Camera {
     float focus_distance = 1.0f;  ///< distance of the plane of focus, along the axis
 };
 
-/// Camera ray through a point of the film, in pixels from the top left corner. The direction is unit.
+/// Unit direction from the eye through a point of the film, in pixels from the top left corner.
+template <class N>
+PL_INLINE Real3<N> camera_direction(const Camera& camera, const Real2<N>& film, Vec2f resolution) {
+    const auto x = 2.0f * (film.x / resolution.x) - 1.0f;
+    const auto y = 1.0f - 2.0f * (film.y / resolution.y);
+    const Real3<N> center = constant_vector<N>(camera.center);
+    const Real3<N> direction =
+        center + scaled(constant_vector<N>(camera.right), x) + scaled(constant_vector<N>(camera.up), y);
+    return scaled(direction, 1.0f / N::sqrt(dot(direction, direction)));
+}
 PL_HD inline Ray generate_ray(const Camera& camera, Vec2f film, Vec2f resolution) {
-    const float x = 2.0f * (film.x / resolution.x) - 1.0f;
-    const float y = 1.0f - 2.0f * (film.y / resolution.y);
-    return {.origin = camera.eye, .direction = glm::normalize(camera.center + x * camera.right + y * camera.up)};
+    return {.origin = camera.eye, .direction = pack(camera_direction(camera, unpack(film), resolution))};
 }
 
 /// A point of the scene on the film of a pinhole, in pixels from the top left corner; inverse of generate_ray().

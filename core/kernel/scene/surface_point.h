@@ -103,6 +103,19 @@ PL_HD inline TextureAxis texture_axis(const SceneView& scene, std::uint32_t prim
                         pack(corners.p2));
 }
 
+/// `v` at unit length; `otherwise` if its length is 0.
+template <class N>
+PL_INLINE Real3<N> unit_or(const Real3<N>& v, const Real3<N>& otherwise) {
+    const auto length2 = dot(v, v);
+    return select(static_cast<typename N::Mask>(length2 > 0.0f), scaled(v, 1.0f / N::sqrt(length2)), otherwise);
+}
+/// A normal of either side, turned to that of the geometric one.
+template <class N>
+PL_INLINE Real3<N> turned_to(const Real3<N>& geometric_normal, const Real3<N>& normal) {
+    const auto is_same_side = static_cast<typename N::Mask>(dot(normal, geometric_normal) >= 0.0f);
+    return scaled(normal, select(is_same_side, N::constant(1.0f), N::constant(-1.0f)));
+}
+
 /// The interpolated shading normal of the front side. That of an instance is interpolated in the space of its mesh.
 template <FeatureSet F>
 PL_HD inline Vec3f interpolate_normal(const SceneView& scene, std::uint32_t primitive, Vec3f b, Vec3f fallback) {
@@ -114,8 +127,7 @@ PL_HD inline Vec3f interpolate_normal(const SceneView& scene, std::uint32_t prim
                 if (primitive >= scene.direct_triangles())
                     n = scene.instances.instance_of(primitive).to_mesh.transposed(n);
             }
-            const float length2 = glm::dot(n, n);
-            if (length2 > 0.0f) return n * (1.0f / std::sqrt(length2));
+            return pack(unit_or(unpack(n), unpack(fallback)));
         }
     }
     return fallback;
@@ -135,10 +147,9 @@ PL_HD inline Vec3f front_normal(const SceneView& scene, const SurfacePoint& poin
 template <FeatureSet F>
 PL_HD inline SurfacePoint with_shading_normal(const SceneView& scene, SurfacePoint point, Vec3f attributes) {
     if constexpr (F.has(Feature::SmoothNormals)) {
-        // Normals of a file may disagree with the winding: the shading normal is flipped to the side of the geometric
-        // one.
+        // Normals of a file may disagree with the winding.
         const Vec3f smooth = interpolate_normal<F>(scene, point.primitive, attributes, front_normal<F>(scene, point));
-        point.shading_normal = (glm::dot(smooth, point.geometric_normal) >= 0.0f ? 1.0f : -1.0f) * smooth;
+        point.shading_normal = pack(turned_to(unpack(point.geometric_normal), unpack(smooth)));
     }
     if constexpr (F.has(Feature::NormalMaps)) {
         if (has_normal_map(scene.textures, point.material)) {
