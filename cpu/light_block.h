@@ -1,4 +1,5 @@
-// Light samples at the vertices of a block (VertexBlock or LaneBlock): lights are chosen in SIMD lanes, and sampled there at Lambert reflectors.
+// Light samples at the vertices of a block (VertexBlock or LaneBlock): lights are chosen in SIMD lanes, and sampled there at Lambert
+// reflectors.
 #pragma once
 
 #include "core/kernel/integrator/light_sample.h"
