@@ -107,6 +107,8 @@ public:
         groups_[i / kGroupSize].set_volume(i % kGroupSize, served_point(field, from.vertex, from.surface),
                                            method_.bsdf_fraction(from.vertex));
     }
+    /// The volumes of the vertices, instead of calls of add().
+    GuidedGroup* guided() { return groups_; }
     void complete(const auto& block) {
         for (std::uint32_t group = 0; group < block.group_count(); ++group)
             kernels_.sample_rows(sampler_of(method_.field), block.groups()[group], groups_[group], sampled_[group]);

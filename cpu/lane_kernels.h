@@ -5,6 +5,7 @@
 
 #include "cpu/lane_groups.h"
 #include "cpu/path_groups.h"
+#include "cpu/table_groups.h"
 
 namespace pl {
 
@@ -90,6 +91,17 @@ struct LaneKernels {
                                       LitGroup* kept, RayGroup* rays, std::uint32_t count);
     /// Adds the contributions of light samples to the paths in `lit`.
     void (*connect_paths)(const LitGroup* lights, const BlockBits& lit, PathGroup* paths, std::uint32_t groups);
+    /// The volumes of a block's vertices: what directions are sampled by, and their values. `rows`: served are the vertices that may have
+    /// a volume. Returns those that have one, and marks those whose volume has no known node: their sites and normals are arbitrary.
+    BlockBits (*look_up_volumes)(const VolumeRows& field, const LearningRows& rows, BlockBits& unknown);
+    /// Contribution estimates at the vertices in `reached`.
+    void (*estimate_contributions)(const LearningRows& rows, const BlockBits& reached, BlockNumbers& estimates);
+    /// Targets of the training samples that a block's segments complete. `emitted`: see TableLanes::complete(); `most`: the largest
+    /// target. Marks the samples, and those that are clamped.
+    void (*complete_samples)(const LearningRows& rows, bool is_indirect, float most, const BlockNumbers& emitted,
+                             BlockNumbers& targets, BlockBits& samples, BlockBits& clamped);
+    /// Opens training samples for the paths in `scattered`, and none for the others.
+    void (*open_samples)(const LearningRows& rows, const DirectionGroup* directions, const BlockBits& scattered);
     /// Whether any cell of a volume has new training samples.
     bool (*has_samples)(const TableUpdateView& field, std::uint32_t volume);
     /// The update of one volume's table: update_volume() without the BSDF fraction and the reach. Returns false, and changes

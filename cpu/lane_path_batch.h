@@ -42,13 +42,13 @@ private:
     PL_INLINE bool start(PathSource& source, std::uint32_t i) {
         PathStart next;
         if (!source.next(next)) return false;
-        if constexpr (Hookless<M>) {
-            paths_.rows.set(i, work_.begin(next));
-        } else {
+        if (!paths_.rows.keeps_states()) {
+            paths_.rows.start(i, work_.begin(next));
+        } else if constexpr (!Hookless<M>) {
             PathState<F, M>& state = paths_.rows.of_method(i);
             ::new (static_cast<void*>(&state)) PathState<F, M>(work_.begin(next));  // as in PathBatch
             if (!stores_.empty()) keep_store(state, &stores_[i]);
-            paths_.rows.set(i, state);
+            paths_.rows.start(i, state);
         }
         return true;
     }
@@ -87,6 +87,8 @@ private:
         PathState<F, M>& state = paths_.rows.read(i, local);
         if (finish_branch(paths_.context, state, paths_.counters.path) == PathStatus::Continues) {
             paths_.rows.set(i, state);
+            if constexpr (LaneLearning<M> && !std::is_empty_v<typename M::Sample>)
+                paths_.rows.set_open_sample(i, state.memory);
             return true;
         }
         count_path(paths_.counters, state.radiance, work_.finish(state, paths_.counters));

@@ -10,7 +10,7 @@ namespace pl {
 template <FeatureSet F, Method M>
 struct LanePaths {
     LanePaths(const PassSetup& arguments, const M& of, SharedByThreads<M>& shared)
-        : setup(arguments), method(of), rows(setup.batch_paths, samples_lights()), guided(method, shared) {}
+        : setup(arguments), method(of), rows(setup.batch_paths, samples_lights(), splits()), guided(method, shared) {}
     LanePaths(const LanePaths&) = delete;
     LanePaths& operator=(const LanePaths&) = delete;
 

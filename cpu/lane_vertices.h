@@ -7,6 +7,7 @@
 #include "cpu/lane_block.h"
 #include "cpu/lane_paths.h"
 #include "cpu/shadow_batch.h"
+#include "cpu/table_learning.h"
 
 namespace pl {
 
@@ -22,11 +23,18 @@ public:
         first_ = first;
         block_ = rows_of(count);
         vertices_.clear(count);
+        if constexpr (LaneLearning<M>) {
+            directions_.clear();
+            learning_.begin(first, block_, directions_.guided());
+        }
         const std::uint64_t reached = shade(count);
         vertices_.set_reached(reached);
         const std::uint64_t continuing = continue_paths(reached);
         vertices_.set_continuing(continuing);
-        if constexpr (!Hookless<M>) add_directions(paths_.samples_lights() ? reached : continuing);
+        if constexpr (kHooksInLanes)
+            directions_.complete(vertices_);
+        else
+            add_directions(paths_.samples_lights() ? reached : continuing);
         if constexpr (F.has(Feature::NextEventEstimation)) {
             if (paths_.samples_lights()) request_lights(reached, shadows);
         }
@@ -35,6 +43,7 @@ public:
 
 private:
     using State = PathState<F, M>;
+    static constexpr bool kHooksInLanes = PathRows<F, M>::kHooksInLanes;
 
     /// Number of path k of the block in the batch.
     std::uint32_t path(std::uint32_t k) const { return first_ + k; }
@@ -84,8 +93,12 @@ private:
         for_bits(first_bits(count) & ~hit, [&](std::uint32_t k) { miss(path(k)); });
         const std::uint64_t emitting = marks.emits.bits() & hit;
         const std::uint64_t reached = scattering & ~truncated;
-        if constexpr (Hookless<M>) {
-            for_bits(emitting, [&](std::uint32_t k) { add_emission_at(k); });
+        if constexpr (kHooksInLanes) {
+            for_bits(emitting, [&](std::uint32_t k) {
+                [[maybe_unused]] const Observation emission = add_emission_at(k);
+                if constexpr (LaneLearning<M>) learning_.add_emission(k, emission);
+            });
+            if constexpr (LaneLearning<M>) learning_.observe({hit, scattering, reached}, vertices_);
         } else {
             for_bits(hit, [&](std::uint32_t k) {
                 const bool emits = ((emitting >> k) & 1u) != 0;
@@ -98,11 +111,20 @@ private:
     void miss(std::uint32_t i) {
         typename M::Sample sample{};
         if constexpr (F.has(Feature::Environment) || !Hookless<M>)
-            paths_.rows.with_state(i,
-                                   [&](State& state) { shade_miss(paths_.context, state, paths_.output(sample)); });
+            paths_.rows.with_state(i, [&](State& state) {
+                if constexpr (LaneLearning<M>) state.memory = as_memory(paths_.rows.open_sample(i));
+                shade_miss(paths_.context, state, paths_.output(sample));
+            });
         else
             ++paths_.counters.path.escaped;
         paths_.guided.record(sample);
+    }
+    /// The memory of a method with hooks in lanes that has this training sample open.
+    static typename M::Memory as_memory([[maybe_unused]] const OpenSample<TableField>& sample) {
+        if constexpr (std::is_empty_v<typename M::Sample>)
+            return {};
+        else
+            return sample;
     }
     /// Returns the emission, and its share, as an observation of nothing else.
     Observation add_emission_at(std::uint32_t k) {
@@ -129,31 +151,54 @@ private:
 
     /// Plays roulette at the vertices. Returns the paths that go on.
     std::uint64_t continue_paths(std::uint64_t reached) {
+        const float* estimates = Hookless<M> ? nullptr : estimates_;
+        if constexpr (LaneLearning<M>) estimates = learning_.estimate(reached);
+        std::uint64_t alone = 0;
         if constexpr (SplittingMethod<M>) {
-            if (paths_.splits()) return continue_alone(reached);
+            if (paths_.splits()) alone = kHooksInLanes ? above_split_threshold(estimates) & reached : reached;
         }
+        Continued continued;
+        for_bits(alone, [&](std::uint32_t k) { continue_alone(k, continued); });
         BlockBits survivors;
-        paths_.kernels.play_roulette(paths_.setup.path, block_, Hookless<M> ? nullptr : estimates_, survivors);
-        const std::uint64_t continuing = survivors.bits() & reached;
-        if constexpr (!Hookless<M>) terminate(reached & ~continuing);
-        return continuing;
+        paths_.kernels.play_roulette(paths_.setup.path, block_, estimates, survivors);
+        if constexpr (SplittingMethod<M>)
+            for_bits(alone, [&](std::uint32_t k) {
+                paths_.rows.set_sums(path(k), paths_.rows.of_method(path(k)));
+                block_.paths[k / kGroupSize].roulette_weight[k % kGroupSize] = continued.weights[k];
+            });
+        const std::uint64_t in_lanes = survivors.bits() & reached & ~alone;
+        if constexpr (!kHooksInLanes) terminate(reached & ~alone & ~in_lanes);
+        return in_lanes | continued.paths;
     }
-    /// The same path by path, where paths may be split.
-    std::uint64_t continue_alone(std::uint64_t reached) {
-        std::uint64_t continuing = 0;
-        for_bits(reached, [&](std::uint32_t k) {
+    /// Paths that went through the roulette alone: those that go on, and RouletteRound::weight of each.
+    struct Continued {
+        std::uint64_t paths = 0;
+        float weights[kPathBlock];
+    };
+    std::uint64_t above_split_threshold(const float* estimates) const {
+        std::uint64_t above = 0;
+        for (std::uint32_t k = 0; k < kPathBlock; ++k)
+            above |= std::uint64_t{estimates[k] > paths_.setup.path.split_threshold} << k;
+        return above;
+    }
+    /// Splits path k, or plays roulette with it; its sums stay in its state.
+    void continue_alone([[maybe_unused]] std::uint32_t k, [[maybe_unused]] Continued& continued) {
+        if constexpr (SplittingMethod<M>) {
             typename M::Sample sample{};
+            State& state = paths_.rows.of_method(path(k));
+            paths_.rows.read(path(k), state);
+            if constexpr (LaneLearning<M>) {
+                vertices_.set_vertex(k, learning_.vertex(k));
+                state.expectation.first = paths_.rows.first_expectation(path(k));
+            }
             ScatterPoint<F, M> from = scatter_point(k);
             const float u = block_.scatter[k / kGroupSize].rows[3][k % kGroupSize];
-            paths_.rows.with_state(path(k), [&](State& state) {
-                const PathStatus status = continue_path(paths_.context, paths_.rows.rays.hit(path(k)), u, state, from,
-                                                        paths_.output(sample));
-                if (status == PathStatus::Continues) continuing |= std::uint64_t{1} << k;
-            });
-            block_.paths[k / kGroupSize].roulette_weight[k % kGroupSize] = from.roulette_weight;
+            const PathStatus status =
+                continue_path(paths_.context, paths_.rows.rays.hit(path(k)), u, state, from, paths_.output(sample));
+            continued.weights[k] = from.roulette_weight;
+            if (status == PathStatus::Continues) continued.paths |= std::uint64_t{1} << k;
             paths_.guided.record(sample);
-        });
-        return continuing;
+        }
     }
 
     /// Samples and weighs the lights of the vertices, and packs their shadow rays.
@@ -172,14 +217,16 @@ private:
                                      paths_.rows.rays.ray_groups() + first_ / kGroupSize, lit);
         const std::uint64_t black = continuing & ~lit.bits();
         paths_.counters.path.zero_directions += static_cast<std::uint64_t>(std::popcount(black));
-        if constexpr (!Hookless<M>) {
+        if constexpr (kHooksInLanes) {
+            if constexpr (LaneLearning<M>) learning_.scattered(directions_.groups(), continuing & ~black);
+        } else {
             terminate(black);
             for_bits(continuing & ~black, [&](std::uint32_t k) { leave(k); });
         }
         return continuing & ~black;
     }
 
-    // The hooks of a method that learns.
+    // The hooks of a method that learns, path by path.
 
     /// `reaches`: whether the path may go on from the vertex.
     void observe(std::uint32_t k, Observation observation, bool reaches) {
@@ -238,6 +285,7 @@ private:
     float estimates_[kPathBlock];  ///< of contributions
     [[no_unique_address]] LightBlock<F, M> lights_{paths_.context, paths_.setup.lights};
     DirectionBlock<F, M> directions_{paths_.method};
+    [[no_unique_address]] TableLearning<F, M> learning_{paths_};
 };
 
 }  // namespace pl

@@ -12,6 +12,7 @@
 #include "cpu/lookup_lanes.h"
 #include "cpu/path_lanes.h"
 #include "cpu/shadow_lanes.h"
+#include "cpu/table_lanes.h"
 #include "cpu/update_lanes.h"
 #include "cpu/vertex_lanes.h"
 #include "cpu/wide_lanes.h"
@@ -174,6 +175,38 @@ void connect_paths(const LitGroup* lights, const BlockBits& lit, PathGroup* path
             ConnectedLanes(paths[group], first).add(lights[group], lit.groups[group]);
 }
 
+BlockBits look_up_volumes(const VolumeRows& field, const LearningRows& rows, BlockBits& unknown) {
+    BlockBits served{};
+    for_table_lanes(rows, [&](const TableLanes& lanes, std::uint32_t group) {
+        const TableLanes::LookedUp found = lanes.look_up(field);
+        served.groups[group] = static_cast<std::uint16_t>(served.groups[group] | found.served);
+        unknown.groups[group] = static_cast<std::uint16_t>(unknown.groups[group] | found.unknown);
+    });
+    return served;
+}
+
+void estimate_contributions(const LearningRows& rows, const BlockBits& reached, BlockNumbers& estimates) {
+    for_table_lanes(rows, [&](const TableLanes& lanes, std::uint32_t group) {
+        lanes.estimate(reached.groups[group], estimates.of + group * kGroupSize);
+    });
+}
+
+void complete_samples(const LearningRows& rows, bool is_indirect, float most, const BlockNumbers& emitted,
+                      BlockNumbers& targets, BlockBits& samples, BlockBits& clamped) {
+    for_table_lanes(rows, [&](const TableLanes& lanes, std::uint32_t group) {
+        const TableLanes::Completed completed =
+            lanes.complete(is_indirect, most, emitted.of + group * kGroupSize, targets.of + group * kGroupSize);
+        samples.groups[group] = static_cast<std::uint16_t>(samples.groups[group] | completed.samples);
+        clamped.groups[group] = static_cast<std::uint16_t>(clamped.groups[group] | completed.clamped);
+    });
+}
+
+void open_samples(const LearningRows& rows, const DirectionGroup* directions, const BlockBits& scattered) {
+    for_table_lanes(rows, [&](const TableLanes& lanes, std::uint32_t group) {
+        lanes.open(directions[group], scattered.groups[group]);
+    });
+}
+
 bool has_samples(const TableUpdateView& field, std::uint32_t volume) { return any_sample_in_lanes(field, volume); }
 
 bool update_table(const TableUpdateView& field, std::uint32_t volume) { return update_table_in_lanes(field, volume); }
@@ -209,6 +242,10 @@ constexpr LaneKernels lane_kernels_named(const char* name) {
             scatter_paths,
             pack_shadow_rays,
             connect_paths,
+            look_up_volumes,
+            estimate_contributions,
+            complete_samples,
+            open_samples,
             has_samples,
             update_table};
 }

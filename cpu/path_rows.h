@@ -4,8 +4,11 @@
 #include <vector>
 
 #include "core/kernel/methods/default.h"
+#include "core/kernel/methods/targets/expected_sarsa.h"
+#include "core/kernel/methods/targets/frozen.h"
 #include "cpu/number_batch.h"
-#include "cpu/path_groups.h"
+#include "cpu/table_groups.h"
+#include "cpu/training_queue.h"
 
 namespace pl {
 
@@ -13,17 +16,25 @@ namespace pl {
 template <class M>
 concept Hookless = std::same_as<M, DefaultMethod>;
 
+/// Methods guided by tables whose hooks are called in lanes, see table_learning.h.
+template <class M>
+concept LaneLearning = TableGuided<M> &&
+    (std::derived_from<M, ExpectedSarsa<TableField>> || std::derived_from<M, FrozenField<TableField>>);
+
 /// The members of PathState of which a method has a type of its own stay in a PathState of each path, whose other members are arbitrary.
 template <FeatureSet F, Method M>
 class PathRows {
 public:
     using State = PathState<F, M>;
 
-    PathRows(std::uint32_t capacity, bool with_light)
+    PathRows(std::uint32_t capacity, bool with_light, bool splits)
         : rays(capacity), numbers(capacity, with_light), groups_(pl::group_count(capacity)),
-          states_(Hookless<M> ? 0 : capacity) {}
+          open_(LaneLearning<M> ? groups_.size() : 0), states_(kHooksInLanes && !splits ? 0 : capacity) {}
 
-    /// Starts or restarts path i.
+    /// Whether all hooks of the method, if it has any, are called in lanes.
+    static constexpr bool kHooksInLanes = Hookless<M> || LaneLearning<M>;
+
+    /// Path i goes on from `state`.
     void set(std::uint32_t i, const State& state) {
         rays.set_ray(i, state.ray);
         numbers.set_path(i, state);
@@ -32,6 +43,11 @@ public:
         group.direction_pdf_sa[i % kGroupSize] = state.direction_pdf_sa;
         group.vertices[i % kGroupSize] = state.vertices;
     }
+    /// Starts path i.
+    void start(std::uint32_t i, const State& state) {
+        set(i, state);
+        if constexpr (LaneLearning<M>) open_[i / kGroupSize].start(i % kGroupSize);
+    }
     /// Calls step(state) for the state of path i, and keeps its radiance, throughput and survival.
     void with_state(std::uint32_t i, const auto& step) {
         State local;
@@ -39,9 +55,9 @@ public:
         step(state);
         set_sums(i, state);
     }
-    /// The state of path i, which is `local` for methods without hooks.
+    /// The state of path i, which is `local` unless keeps_states().
     State& read(std::uint32_t i, State& local) {
-        State& state = Hookless<M> ? local : states_[i];
+        State& state = keeps_states() ? states_[i] : local;
         state.ray = rays.ray(i);
         state.pixel = numbers.pixel(i);
         state.sample = numbers.sample(i);
@@ -57,8 +73,37 @@ public:
         set_sums(to, state);
         groups_[to / kGroupSize].direction_pdf_sa[to % kGroupSize] = state.direction_pdf_sa;
         groups_[to / kGroupSize].vertices[to % kGroupSize] = state.vertices;
-        if constexpr (!Hookless<M>) states_[to] = states_[from];
+        if (keeps_states()) states_[to] = states_[from];
+        if constexpr (LaneLearning<M>)
+            open_[from / kGroupSize].move(from % kGroupSize, open_[to / kGroupSize], to % kGroupSize);
     }
+
+    /// Whether paths have states: for hooks that are called path by path, and for branches.
+    bool keeps_states() const { return !states_.empty(); }
+    /// With hooks in lanes: the open training sample of path i, and all of them.
+    OpenSample<TableField> open_sample(std::uint32_t i) const requires(LaneLearning<M>) {
+        const OpenGroup& group = open_[i / kGroupSize];
+        const std::uint32_t lane = i % kGroupSize;
+        return {.entry = {group.volume[lane], group.cell[lane]}, .bsdf_ratio = group.bsdf_ratio[lane]};
+    }
+    void set_open_sample(std::uint32_t i, const OpenSample<TableField>& sample) requires(LaneLearning<M>) {
+        OpenGroup& group = open_[i / kGroupSize];
+        const std::uint32_t lane = i % kGroupSize;
+        group.volume[lane] = sample.entry.volume;
+        group.cell[lane] = sample.entry.cell;
+        group.bsdf_ratio[lane] = sample.bsdf_ratio;
+    }
+    /// GuidedExpectation::first of path i.
+    float first_expectation(std::uint32_t i) const requires(LaneLearning<M>) {
+        return open_[i / kGroupSize].first[i % kGroupSize];
+    }
+    void set_sums(std::uint32_t i, const State& state) {
+        PathGroup& group = groups_[i / kGroupSize];
+        group.throughput.set(i % kGroupSize, state.throughput);
+        group.radiance.set(i % kGroupSize, state.radiance);
+        group.survival[i % kGroupSize] = state.survival;
+    }
+    OpenGroup* open_groups() { return open_.data(); }
 
     /// The method's part of path i; see above.
     State& of_method(std::uint32_t i) requires(!Hookless<M>) { return states_[i]; }
@@ -70,12 +115,6 @@ public:
     NumberBatch numbers;
 
 private:
-    void set_sums(std::uint32_t i, const State& state) {
-        PathGroup& group = groups_[i / kGroupSize];
-        group.throughput.set(i % kGroupSize, state.throughput);
-        group.radiance.set(i % kGroupSize, state.radiance);
-        group.survival[i % kGroupSize] = state.survival;
-    }
     void read_sums(std::uint32_t i, State& state) const {
         const PathGroup& group = groups_[i / kGroupSize];
         const std::uint32_t lane = i % kGroupSize;
@@ -87,7 +126,8 @@ private:
     }
 
     std::vector<PathGroup> groups_;
-    std::vector<State> states_;  ///< empty for methods without hooks
+    std::vector<OpenGroup> open_;  ///< of a method that learns in lanes, else empty
+    std::vector<State> states_;    ///< unless keeps_states(), empty
 };
 
 }  // namespace pl

@@ -60,9 +60,10 @@ private:
                      Requests requests) {
         for_bits(requests.reached, [&](std::uint32_t k) {
             const bool wanted = ((requests.lit >> k) & 1u) != 0;
-            const typename M::Light light =
-                paths_.method.light_sampled(paths_.rows.of_method(first + k).memory, vertices.vertex(k),
-                                            wanted ? lights.estimate(k, Vec3f{1.0f}) : LightEstimate{});
+            typename M::Memory none{};
+            const typename M::Light light = paths_.method.light_sampled(
+                PathRows<F, M>::kHooksInLanes ? none : paths_.rows.of_method(first + k).memory, vertices.vertex(k),
+                wanted ? lights.estimate(k, Vec3f{1.0f}) : LightEstimate{});
             if (wanted)
                 of_method_[requests.ray++] = light;
             else
@@ -76,7 +77,7 @@ private:
             const bool is_visible = !rays_.occluded(ray);
             visible |= std::uint64_t{is_visible} << k;
             if constexpr (!Hookless<M>) {
-                if (is_visible)
+                if (is_visible && !PathRows<F, M>::kHooksInLanes)
                     paths_.method.light_received(paths_.rows.of_method(first + k).memory,
                                                  paths_.counters.path.method);
                 paths_.guided.record_light(of_method_[ray], is_visible);

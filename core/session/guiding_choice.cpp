@@ -88,13 +88,13 @@ double guidance_over_table(Representation representation) {
 PathCosts PathCosts::of(std::size_t triangles, FeatureSet features, Representation representation) {
     constexpr std::size_t kFewTriangles = 64;  // tested one by one
     const bool has_few = triangles <= kFewTriangles;
-    PathCosts costs{.segment = has_few ? 25.0 : 90.0, .guidance = has_few ? 60.0 : 75.0};
+    PathCosts costs{.segment = has_few ? 25.0 : 90.0, .guidance = has_few ? 45.0 : 60.0};
     if (features.has(Feature::NextEventEstimation)) {
         costs.segment += has_few ? 30.0 : 60.0;
         costs.guidance += 10.0;
         if (features.has(Feature::ManyLights)) {
             costs.segment += 90.0;
-            costs.guidance += 25.0;
+            costs.guidance += 30.0;
         }
     }
     if (features.has_any(kLobeFeatures)) {

@@ -73,6 +73,7 @@ private:
         settings.width = settings.height = kSide;
         settings.camera = common.scene->camera;
         settings.next_event = common.light_samples;
+        settings.guiding = GuidingRule::Always;
         settings.field.volumes = common.volumes;
         settings.field.precompute_samples = kPrecompute;
         return settings;

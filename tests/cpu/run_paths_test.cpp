@@ -46,9 +46,17 @@ bool same(const Outcome& a, const Outcome& b) {
 
 constexpr std::uint32_t kPasses = 3;
 
-/// Splits guided paths at about every second vertex.
-PathSettings path_settings(bool next_event) {
-    return {.seed = 77, .split_threshold = 0.25f, .next_event = next_event ? 1u : 0u};
+/// Effects of a pass, whether lights are sampled, and whether guided paths are split, at about every second vertex.
+struct Effects {
+    FeatureSet set;
+    bool next_event = false;
+    bool splits = false;
+};
+
+PathSettings path_settings(const Effects& effects) {
+    return {.seed = 77,
+            .split_threshold = effects.splits ? 0.25f : kInfinity,
+            .next_event = effects.next_event ? 1u : 0u};
 }
 
 /// A room without a ceiling under a constant sky, with a lamp that shines on both sides, and shading normals that lean; one has no length.
@@ -69,12 +77,12 @@ SceneDescription open_room() {
 
 /// Traces path by path.
 template <FeatureSet F, Method M>
-Outcome loop_over_paths(const Room& room, bool next_event = F.has(Feature::NextEventEstimation)) {
+Outcome loop_over_paths(const Room& room, const Effects& effects) {
     Outcome outcome{.film = {}, .tables = room.empty_tables(), .counters = {}};
     HostArray<FilmPixel> pixels(kWidth * kHeight);
     const FilmView film{view_of(pixels), kWidth, kHeight};
     const SceneView scene = room.scene->view();
-    const PathSettings settings = path_settings(next_event);
+    const PathSettings settings = path_settings(effects);
     const BvhIntersector intersector{scene};
     SingleRays<F, BvhIntersector> rays{scene, intersector};
     M method;
@@ -98,12 +106,6 @@ Outcome loop_over_paths(const Room& room, bool next_event = F.has(Feature::NextE
     return outcome;
 }
 
-/// Effects of a pass, and whether lights are sampled.
-struct Effects {
-    FeatureSet set;
-    bool next_event = false;
-};
-
 Outcome batches(const Room& room, MethodId method, const Effects& effects, const CpuSettings& settings) {
     const auto backend = make_backend(room, settings);
     const FilmSlot slot{method, View::Beauty};
@@ -113,7 +115,7 @@ Outcome batches(const Room& room, MethodId method, const Effects& effects, const
     for (std::uint32_t sample = 0; sample < kPasses; ++sample) {
         outcome.counters += backend->run_pass({.slot = slot,
                                                .features = effects.set,
-                                               .path = path_settings(effects.next_event),
+                                               .path = path_settings(effects),
                                                .camera = room.camera,
                                                .mixture = {},
                                                .sample = sample,
@@ -140,21 +142,28 @@ void check_batches(const Outcome& expected, const Room& room, MethodId method, c
     REQUIRE((expected.counters.path.shadow_rays > 0) == effects.next_event);
     REQUIRE((expected.counters.path.method.records > 0) == (method == MethodId::Reinforcement));
     for (const CpuSettings& settings : kSettings) {
-        INFO("effects " << effects.set.bits << ", next event " << effects.next_event << ", batch "
-                        << settings.batch_paths << ", threads " << settings.threads << ", intersector "
+        INFO("effects " << effects.set.bits << ", next event " << effects.next_event << ", splits " << effects.splits
+                        << ", batch " << settings.batch_paths << ", threads " << settings.threads << ", intersector "
                         << static_cast<int>(settings.intersector));
         CHECK(same(expected, batches(room, method, effects, settings)));
     }
 }
 
+template <FeatureSet F, class M>
+void check_effects(const Room& room, MethodId method, const Effects& effects) {
+    check_batches(loop_over_paths<F, M>(room, effects), room, method, effects);
+}
+
 template <class M>
 void check_method(MethodId method) {
     const Room closed;
-    check_batches(loop_over_paths<FeatureSet{}, M>(closed), closed, method, {FeatureSet{}, false});
-    check_batches(loop_over_paths<kLights, M>(closed), closed, method, {kLights, true});
     const Room open(open_room());
-    for (const bool next_event : {false, true})
-        check_batches(loop_over_paths<kLaneFeatures, M>(open, next_event), open, method, {kLaneFeatures, next_event});
+    for (const bool splits : {false, true}) {
+        check_effects<FeatureSet{}, M>(closed, method, {FeatureSet{}, false, splits});
+        check_effects<kLights, M>(closed, method, {kLights, true, splits});
+        for (const bool next_event : {false, true})
+            check_effects<kLaneFeatures, M>(open, method, {kLaneFeatures, next_event, splits});
+    }
 }
 
 }  // namespace
@@ -172,7 +181,7 @@ TEST_CASE("Batches of probes equal single probes") {
     HostTables expected = room.empty_tables();
     const TableField field = field_view(room.shape, *room.volumes, expected);
     const SceneView scene = room.scene->view();
-    PathSettings settings = path_settings(true);
+    PathSettings settings = path_settings({kLights, true, true});
     settings.stream = Stream::Precompute;
     PassCounters counters;
     for (std::uint32_t probe = 0; probe < field.normals.count * 16; ++probe) {

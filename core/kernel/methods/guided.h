@@ -33,6 +33,15 @@ struct FieldTrainer : MethodHooks {
     }
 };
 
+/// Radiance `expected` of a path from its vertex on as a share of that at its first one. Infinite or NaN, and then `otherwise`, if the
+/// first expectation is 0 or the ratio is beyond the range of float.
+template <class N>
+PL_INLINE typename N::Real expected_share(const typename N::Real& expected, const typename N::Real& first,
+                                          const typename N::Real& otherwise) {
+    const auto estimate = expected / first;
+    return select(static_cast<typename N::Mask>(estimate < kInfinity), estimate, otherwise);
+}
+
 /// Radiance, rms() of its channels, expected to be reflected at the path's first vertex with a location, light samples
 /// included; 0 before it.
 struct GuidedExpectation {
@@ -95,9 +104,7 @@ struct Guided : Target<F> {
         const float expected = rms(throughput * albedo) * field.value_at(vertex);
         if (expectation.first == 0.0f)
             expectation.first = expected + rms(throughput * albedo) * field.direct_at(vertex);
-        // Infinite or NaN if the first expectation is 0 or the ratio is beyond the range of float.
-        const float estimate = expected / expectation.first;
-        return estimate < kInfinity ? estimate : survival;
+        return expected_share<One>(expected, expectation.first, survival);
     }
 
     /// The fraction a of the mixture at a served vertex.

@@ -6,6 +6,14 @@
 
 namespace pl {
 
+/// The target T of ExpectedSarsa. `emitted`: L_e(y), times w for indirect light; `albedo`: rho(y); `value`: V(y); `direct`: D(y), 0 for
+/// all light.
+template <class N>
+PL_INLINE typename N::Real expected_sarsa_target(const typename N::Real& emitted, const typename N::Real& albedo,
+                                                 const typename N::Real& value, const typename N::Real& direct) {
+    return emitted + albedo * (value + direct);
+}
+
 /// Target for scattering from x into the direction that hits y:
 ///   all light       T = L_e(y) + rho(y) V(y)
 ///   indirect light  T = w L_e(y) + rho(y) (V(y) + D(y))
@@ -41,7 +49,8 @@ struct ExpectedSarsa : FieldTrainer<F> {
         if (!is_black(observation.albedo)) {
             if (!vertex.is_served()) return {};
             const float direct = indirect ? this->field.direct_at(vertex) : 0.0f;
-            target += rms(observation.albedo) * (this->field.value_at(vertex) + direct);
+            target =
+                expected_sarsa_target<One>(target, rms(observation.albedo), this->field.value_at(vertex), direct);
         }
         this->count_sample(target, counters);
         memory.distance = observation.distance;
