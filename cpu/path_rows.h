@@ -6,6 +6,7 @@
 #include "core/kernel/methods/default.h"
 #include "core/kernel/methods/targets/expected_sarsa.h"
 #include "core/kernel/methods/targets/frozen.h"
+#include "cpu/lookups_ahead.h"
 #include "cpu/number_batch.h"
 #include "cpu/table_groups.h"
 #include "cpu/training_queue.h"
@@ -16,10 +17,10 @@ namespace pl {
 template <class M>
 concept Hookless = std::same_as<M, DefaultMethod>;
 
-/// Methods guided by tables whose hooks are called in lanes, see table_learning.h.
+/// Methods guided by tables whose hooks are called in lanes, see table_learning.h. Not those derived from them, which may have other hooks.
 template <class M>
-concept LaneLearning = TableGuided<M> &&
-    (std::derived_from<M, ExpectedSarsa<TableField>> || std::derived_from<M, FrozenField<TableField>>);
+concept LaneLearning = TableGuided<M> &&(std::same_as<M, LookedUpAhead<Guided<TableField, ExpectedSarsa>>> ||
+                                         std::same_as<M, LookedUpAhead<Guided<TableField, FrozenField>>>);
 
 /// The members of PathState of which a method has a type of its own stay in a PathState of each path, whose other members are arbitrary.
 template <FeatureSet F, Method M>
@@ -42,6 +43,13 @@ public:
         PathGroup& group = groups_[i / kGroupSize];
         group.direction_pdf_sa[i % kGroupSize] = state.direction_pdf_sa;
         group.vertices[i % kGroupSize] = state.vertices;
+    }
+    /// Its radiance, throughput and survival.
+    void set_sums(std::uint32_t i, const State& state) {
+        PathGroup& group = groups_[i / kGroupSize];
+        group.throughput.set(i % kGroupSize, state.throughput);
+        group.radiance.set(i % kGroupSize, state.radiance);
+        group.survival[i % kGroupSize] = state.survival;
     }
     /// Starts path i.
     void start(std::uint32_t i, const State& state) {
@@ -80,7 +88,7 @@ public:
 
     /// Whether paths have states: for hooks that are called path by path, and for branches.
     bool keeps_states() const { return !states_.empty(); }
-    /// With hooks in lanes: the open training sample of path i, and all of them.
+    /// With hooks in lanes: the open training sample of path i.
     OpenSample<TableField> open_sample(std::uint32_t i) const requires(LaneLearning<M>) {
         const OpenGroup& group = open_[i / kGroupSize];
         const std::uint32_t lane = i % kGroupSize;
@@ -96,12 +104,6 @@ public:
     /// GuidedExpectation::first of path i.
     float first_expectation(std::uint32_t i) const requires(LaneLearning<M>) {
         return open_[i / kGroupSize].first[i % kGroupSize];
-    }
-    void set_sums(std::uint32_t i, const State& state) {
-        PathGroup& group = groups_[i / kGroupSize];
-        group.throughput.set(i % kGroupSize, state.throughput);
-        group.radiance.set(i % kGroupSize, state.radiance);
-        group.survival[i % kGroupSize] = state.survival;
     }
     OpenGroup* open_groups() { return open_.data(); }
 
