@@ -3,6 +3,7 @@
 #include <array>
 #include <cerrno>
 #include <csignal>
+#include <cstdlib>
 #include <cstring>
 
 #include <mpi.h>
@@ -174,13 +175,25 @@ private:
         for (int rank = 1; rank < size_; ++rank) {
             const std::string other = processes_[static_cast<std::size_t>(rank)].version.data();
             if (other == processes_[0].version.data()) continue;
-            // The message of rank 0 is the one that is shown.
             const std::string expected = processes_[0].version.data();
             const std::string name = name_of(rank);
-            MPI_Finalize();
+            finalize_behind_rank_0();
             throw Error(ErrorKind::Unavailable,
                         name + ": another version of the program: expected " + expected + ", got " + other);
         }
+    }
+
+    /// Leaves a job that is refused. The message of rank 0 is the one that is shown: the others wait until it has ended, since a launcher
+    /// kills all ranks once one has failed.
+    void finalize_behind_rank_0() const {
+        constexpr auto kMeetAndFinalize = [] {
+            MPI_Barrier(MPI_COMM_WORLD);
+            MPI_Finalize();
+        };
+        if (rank_ == 0)
+            std::atexit(kMeetAndFinalize);
+        else
+            kMeetAndFinalize();
     }
 
     template <class Value>

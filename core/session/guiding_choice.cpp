@@ -83,9 +83,12 @@ double guidance_over_table(Representation representation) {
     return 1.0;
 }
 
+/// Time of guidance by a field that is constant, over that by one that learns.
+constexpr double kGuidanceWithoutLearning = 0.65;
+
 }  // namespace
 
-PathCosts PathCosts::of(std::size_t triangles, FeatureSet features, Representation representation) {
+PathCosts PathCosts::of(std::size_t triangles, FeatureSet features, Representation representation, bool learns) {
     constexpr std::size_t kFewTriangles = 64;  // tested one by one
     const bool has_few = triangles <= kFewTriangles;
     PathCosts costs{.segment = has_few ? 25.0 : 90.0, .guidance = has_few ? 45.0 : 60.0};
@@ -101,7 +104,7 @@ PathCosts PathCosts::of(std::size_t triangles, FeatureSet features, Representati
         costs.segment += 60.0;
         costs.guidance += 25.0;
     }
-    costs.guidance *= guidance_over_table(representation);
+    costs.guidance *= guidance_over_table(representation) * (learns ? 1.0 : kGuidanceWithoutLearning);
     return costs;
 }
 

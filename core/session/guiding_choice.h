@@ -26,7 +26,8 @@ struct PathCosts {
     double guidance = 0.0;  ///< of a guided path's segment, besides
 
     /// By the scene and the representation of the field alone, so that every back end makes the same choice.
-    static PathCosts of(std::size_t triangles, FeatureSet features, Representation representation);
+    /// `learns`: whether paths train the field.
+    static PathCosts of(std::size_t triangles, FeatureSet features, Representation representation, bool learns);
 
     double guided_segment() const { return segment + guidance; }
 };

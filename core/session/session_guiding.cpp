@@ -38,7 +38,7 @@ GuidingTerms::Field Session::state_of_field(MethodId method) const {
 
 GuidingTerms Session::guiding_terms(FilmSlot slot) const {
     return {.costs = PathCosts::of(scene_.packed()->triangles.size(), needed_features(slot),
-                                   representation_of(settings_.field, slot.method)),
+                                   representation_of(settings_.field, slot.method), info_of(slot.method).learns),
             .pixels = static_cast<double>(pixel_count()),
             .volumes = static_cast<double>(placement_.count()),
             .field = state_of_field(slot.method)};

@@ -102,7 +102,7 @@ TEST_CASE("Guiding choice: the cost of a path counts segments and guidance") {
 
 TEST_CASE("Guiding choice: more triangles, lobes and light samples make guidance a smaller share") {
     const auto share = [](std::size_t triangles, FeatureSet features) {
-        const PathCosts costs = PathCosts::of(triangles, features, Representation::Table);
+        const PathCosts costs = PathCosts::of(triangles, features, Representation::Table, true);
         return costs.guidance / costs.segment;
     };
     CHECK(share(12, {}) > share(100, {}));
@@ -110,9 +110,10 @@ TEST_CASE("Guiding choice: more triangles, lobes and light samples make guidance
 }
 
 TEST_CASE("Guiding choice: what takes more time at a vertex has to gain more") {
-    const auto guided = [](Representation representation) {
-        return PathCosts::of(12, features(Feature::NextEventEstimation), representation).guided_segment();
+    const auto guided = [](Representation representation, bool learns = true) {
+        return PathCosts::of(12, features(Feature::NextEventEstimation), representation, learns).guided_segment();
     };
+    CHECK(guided(Representation::Table) > guided(Representation::Table, false));
     CHECK(guided(Representation::Neural) == guided(Representation::Table));
     CHECK(guided(Representation::SdTree) > guided(Representation::Table));
     CHECK(guided(Representation::Lobes) > guided(Representation::SdTree));
