@@ -83,6 +83,10 @@ private:
     WordBlock blocks_[kBlocks > 0 ? kBlocks : 1];
 };
 
+/// The same as the functions of a Vec3f.
+PL_INLINE LaneFloat max_component(const Real3<Lanes>& v) { return larger(larger(v.z, v.y), v.x); }
+PL_INLINE LaneInt is_black(const Real3<Lanes>& v) { return (v.x == 0.0f) & (v.y == 0.0f) & (v.z == 0.0f); }
+
 /// Lanes [first, first + kLaneWidth) of groups of kGroupSize.
 class GroupRows {
 public:

@@ -1,5 +1,5 @@
 // The vertices of a block of paths in SIMD lanes: from hits to the next rays. Rare events leave the lanes for the steps of one path and
-// come back: emission that is hit, a miss, a split. So do the hooks of a method that learns.
+// come back: emission that is hit, a miss, a split. So do the hooks of methods that have none in lanes.
 #pragma once
 
 #include "core/kernel/integrator/steps.h"

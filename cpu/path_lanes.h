@@ -29,11 +29,11 @@ public:
         return bits(integers(hits_.primitive) != static_cast<std::int32_t>(kNoPrimitive));
     }
     PL_INLINE std::uint32_t emits() const {
-        const LaneInt shines = is_colored(material_.vector(offsetof(Material, emission)));
+        const LaneInt shines = ~is_black(material_.vector(offsetof(Material, emission)));
         const LaneInt both_sides = material_.integer(offsetof(Material, two_sided_emission));
         return bits(shines & ((integers(points_.front) != 0) | (both_sides != 0)));
     }
-    PL_INLINE std::uint32_t scatters() const { return bits(is_colored(albedo())); }
+    PL_INLINE std::uint32_t scatters() const { return bits(~is_black(albedo())); }
     /// Counts the vertices. Marks those from `max_depth` on.
     PL_INLINE std::uint32_t count(std::uint32_t max_depth, CounterGroup& counters, PathGroup& paths) const {
         const auto vertices = load_lanes<LaneUint>(paths.vertices + first()) + 1u;
@@ -44,9 +44,6 @@ public:
 
 private:
     PL_INLINE std::uint32_t bits(const LaneInt& mask) const { return mask_bits(mask) << first(); }
-    static PL_INLINE LaneInt is_colored(const Real3<Lanes>& rgb) {
-        return (rgb.x != 0.0f) | (rgb.y != 0.0f) | (rgb.z != 0.0f);
-    }
     PL_INLINE Real3<Lanes> albedo() const { return material_.vector(offsetof(Material, albedo)); }
 
     /// As with_shading_normal().
@@ -115,9 +112,7 @@ public:
     /// Returns the lanes whose paths go on. `estimates`: contribution estimates; null: PathState::survival.
     PL_INLINE std::uint32_t play_roulette(const PathSettings& settings, const NumberGroup& numbers,
                                           const float* estimates) const {
-        const Real3<Lanes> albedo = vector(vertices_.albedo);
-        const LaneFloat of_last = larger(albedo.z, albedo.y);
-        const LaneFloat survival = row(paths_.survival) * larger(of_last, albedo.x);
+        const LaneFloat survival = row(paths_.survival) * max_component(vector(vertices_.albedo));
         const LaneInt plays = load_lanes<LaneUint>(paths_.vertices + first()) >= settings.roulette_start;
         const RouletteRound<Lanes> round = pl::play_roulette<Lanes>(
             settings, estimates == nullptr ? survival : row(estimates), survival, row(numbers.rows[3]));

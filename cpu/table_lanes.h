@@ -44,7 +44,7 @@ public:
     PL_INLINE void estimate(std::uint32_t reached, float* estimates) const {
         const PathGroup& paths = block_.paths[group_];
         const Real3<Lanes> albedo = vector(vertices_.albedo);
-        const LaneFloat survival = row(paths.survival) * larger(larger(albedo.z, albedo.y), albedo.x);
+        const LaneFloat survival = row(paths.survival) * max_component(albedo);
         const LaneFloat reflected = rms(product(vector(paths.throughput), albedo));
         const LaneFloat expected = reflected * row(values_.value);
         const LaneFloat old = row(open_.first);
@@ -60,13 +60,13 @@ public:
         std::uint32_t samples, clamped;
     };
     PL_INLINE Completed complete(bool is_indirect, float most, const float* emitted, float* targets) const {
-        const LaneFloat albedo = rms(vector(vertices_.albedo));
+        const Real3<Lanes> albedo = vector(vertices_.albedo);
         const LaneFloat direct = is_indirect ? row(values_.direct) : LaneFloat{};
-        const LaneInt is_black = (vector(vertices_.albedo).x == 0.0f) & (vector(vertices_.albedo).y == 0.0f) &
-                                 (vector(vertices_.albedo).z == 0.0f);
-        const LaneFloat with_value = expected_sarsa_target<Lanes>(row(emitted), albedo, row(values_.value), direct);
-        const LaneFloat target = select(is_black, row(emitted), with_value);
-        const LaneInt is_sample = (integers(open_.volume) >= 0) & (is_black | served_);
+        const LaneInt has_no_value = is_black(albedo);
+        const LaneFloat with_value =
+            expected_sarsa_target<Lanes>(row(emitted), rms(albedo), row(values_.value), direct);
+        const LaneFloat target = select(has_no_value, row(emitted), with_value);
+        const LaneInt is_sample = (integers(open_.volume) >= 0) & (has_no_value | served_);
         store(target, targets);
         return {mask_bits(is_sample) << first(), mask_bits(is_sample & (target > most)) << first()};
     }

@@ -29,8 +29,7 @@ public:
 
     PL_INLINE void weigh_light(const DirectionGroup& directions, LightSampleGroup& samples) const {
         const Real3<Lanes> emitted = vector(samples.emitted);
-        const LaneInt shines = (emitted.x != 0.0f) | (emitted.y != 0.0f) | (emitted.z != 0.0f);
-        const LaneFloat pdf_sa = select(shines, row(samples.pdf_sa), LaneFloat{});
+        const LaneFloat pdf_sa = select(is_black(emitted), LaneFloat{}, row(samples.pdf_sa));
         const LaneFloat weight = balance_weight<Lanes>(pdf_sa, row(directions.pdf_sa)) / pdf_sa;
         const LaneFloat cos_i = row(samples.cos_i);
         const Real3<Lanes> reflectance = lambert_eval(vector(vertices_.albedo), cos_i);

@@ -3,6 +3,7 @@
 
 #include <cstring>
 
+#include "tests/cpu/leaning_point.h"
 #include "tests/cpu/random_rays.h"
 #include "tests/support/catch.hpp"
 #include "tests/support/scenes/shapes.h"
@@ -13,9 +14,9 @@ using namespace pl::test;
 namespace {
 
 using State = PathState<FeatureSet{}, DefaultMethod>;
-using Point = ScatterPoint<FeatureSet{}, DefaultMethod>;
+using Point = LeaningPoint;
 
-bool same_bits(const Vec3f& a, const Vec3f& b) { return std::memcmp(&a, &b, sizeof a) == 0; }
+using pl::test::same_bits;
 bool same_bits(float a, float b) { return std::memcmp(&a, &b, sizeof a) == 0; }
 bool has(std::uint64_t bits, std::uint32_t i) { return ((bits >> i) & 1u) != 0; }
 
@@ -176,18 +177,6 @@ Played play(const LaneKernels& kernels, const PathSettings& settings, bool with_
         }
     }
     return played;
-}
-
-/// A surface point whose shading normal often leans far from the geometric one, so that some directions are black.
-Point random_point(Uniforms& random) {
-    Point point;
-    point.surface.position = random.between(0.0f, 3.0f) * random.direction();
-    point.surface.geometric_normal = random.direction();
-    point.surface.shading_normal = random.below(2) == 0 ? point.surface.geometric_normal : random.direction();
-    point.surface.position_error = random.between(0.0f, 1e-3f);
-    point.surface.primitive = random.below(100);
-    point.bsdf = {random.cube(0.0f, 1.0f)};
-    return point;
 }
 
 void set_vertex(VertexGroup& group, std::uint32_t lane, const Point& point) {

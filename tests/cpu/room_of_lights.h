@@ -8,6 +8,7 @@
 
 #include "core/kernel/shading/bsdf.h"
 #include "core/scene/pack_scene.h"
+#include "tests/cpu/same_bits.h"
 #include "tests/support/scenes/shapes.h"
 
 namespace pl::test {
@@ -62,7 +63,9 @@ inline EnvironmentMapDescription spotted_map() {
     }
     return map;
 }
-inline SunDescription wide_sun() { return {.direction = {1, 2, -1}, .radiance = {0.02f, 0.015f, 0.01f}, .angle_deg = 20.0f}; }
+inline SunDescription wide_sun() {
+    return {.direction = {1, 2, -1}, .radiance = {0.02f, 0.015f, 0.01f}, .angle_deg = 20.0f};
+}
 
 /// A point on a surface, often on a light, seen from a random direction.
 inline RoomPoint random_point(const SceneView& scene, Uniforms& random) {
@@ -79,8 +82,6 @@ inline Vec4f random_numbers(Uniforms& random) {
     const Vec3f u = random.cube(0.0f, 1.0f);
     return {u, random.next()};
 }
-
-inline bool same_bits(const Vec3f& a, const Vec3f& b) { return std::memcmp(&a, &b, sizeof a) == 0; }
 
 inline bool same_ray(const Ray& a, const Ray& b) {
     return same_bits(a.origin, b.origin) && same_bits(a.direction, b.direction) && a.t_max == b.t_max &&

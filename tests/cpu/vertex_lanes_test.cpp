@@ -4,6 +4,7 @@
 #include "core/kernel/methods/default.h"
 #include "cpu/lane_kernels.h"
 #include "cpu/vertex_block.h"
+#include "tests/cpu/leaning_point.h"
 #include "tests/support/catch.hpp"
 #include "tests/support/scenes/shapes.h"
 
@@ -12,23 +13,11 @@ using namespace pl::test;
 
 namespace {
 
-using Point = ScatterPoint<FeatureSet{}, DefaultMethod>;
+using Point = LeaningPoint;
 using Block = VertexBlock<FeatureSet{}, DefaultMethod>;
 
-bool same_bits(const Vec3f& a, const Vec3f& b) { return std::memcmp(&a, &b, sizeof a) == 0; }
+using pl::test::same_bits;
 bool same_bits(const DirectionSample& a, const DirectionSample& b) { return std::memcmp(&a, &b, sizeof a) == 0; }
-
-/// A surface point whose shading normal often leans far from the geometric one, so that some directions are black.
-Point random_point(Uniforms& random) {
-    Point point;
-    point.surface.position = random.between(0.0f, 3.0f) * random.direction();
-    point.surface.geometric_normal = random.direction();
-    point.surface.shading_normal = random.below(2) == 0 ? point.surface.geometric_normal : random.direction();
-    point.surface.position_error = random.between(0.0f, 1e-3f);
-    point.surface.primitive = random.below(100);
-    point.bsdf = {random.cube(0.0f, 1.0f)};
-    return point;
-}
 
 struct Comparison {
     int different = 0;
