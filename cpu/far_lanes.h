@@ -33,7 +33,6 @@ private:
         const LaneInt shines = (emitted.x != 0.0f) | (emitted.y != 0.0f) | (emitted.z != 0.0f);
         const LaneFloat pdf_sa = lights_.probability * sample.pdf_sa;
         const SpawnPoint<Lanes> from{vector(receivers_.position), normal, row(receivers_.position_error)};
-        replace(samples.is_near, chosen, LaneInt{});
         replace(samples.cos_i, chosen, cos_i);
         replace(samples.pdf_sa, chosen, select((cos_i > 0.0f) & shines, pdf_sa, LaneFloat{}));
         replace(samples.wi, chosen, sample.wi);

@@ -235,11 +235,9 @@ struct alignas(64) LightHitGroup {
 
 /// A light sample for each of a VertexGroup: members as in ChosenLight, LightPoint and DirectLight, and the results of weighing it.
 struct alignas(64) LightSampleGroup {
-    std::uint32_t light[kGroupSize] = {};
-    float probability[kGroupSize] = {};       ///< of the light, by a tree
-    float pdf_area[kGroupSize] = {};          ///< by a tree
-    std::uint32_t cluster[kGroupSize] = {};   ///< by a tree
-    std::int32_t is_near[kGroupSize] = {};    ///< not 0: the light may be sampled by solid angle, this sample is none
+    std::uint32_t light[kGroupSize] = {};  ///< this and the next two: by a tree
+    float pdf_area[kGroupSize] = {};
+    std::uint32_t cluster[kGroupSize] = {};
     std::int32_t is_behind[kGroupSize] = {};  ///< not 0: its back is seen
     VectorGroup weights;                      ///< barycentric, on the light
     float seen_pdf_sa[kGroupSize] = {};       ///< whichever side of the vertex the light is on; of emissive triangles

@@ -51,12 +51,10 @@ public:
         if (lanes_pay()) sample_in_lanes(block);
         if (far_lights_are_in_lanes()) sample_far_in_lanes(block);
         block.for_lambert([&](std::uint32_t i) {
-            if (!is_far_in_lanes(block, i)) {
-                if (is_triangle_in_lanes(block, i))
-                    look_up_emission(i);
-                else
-                    sample_lambert(block, i);
-            }
+            if (is_triangle_in_lanes(block, i))
+                look_up_emission(i);
+            else if (!is_far_in_lanes(block, i))
+                sample_lambert(block, i);
             if constexpr (kTracksMedium<F>) absorb(block, i);
         });
     }
@@ -157,7 +155,7 @@ private:
     }
     /// Whether the sample of vertex i is that of an emissive triangle that was made in lanes.
     bool is_triangle_in_lanes(const auto& block, std::uint32_t i) const {
-        return lanes_pay() && !is_far_in_lanes(block, i) && group(i).is_near[i % kGroupSize] == 0;
+        return lanes_pay() && !is_far_in_lanes(block, i);
     }
     template <class B>
     DirectLight sample_alone(const auto& block, std::uint32_t i, const SurfacePoint& surface, const B& bsdf) const {
@@ -165,14 +163,8 @@ private:
             if (is_far_in_lanes(block, i))
                 return far_light_from(context_.scene, surface, bsdf, far_.groups[i / kGroupSize].get(i % kGroupSize));
         }
-        const Vec4f u = block.light_numbers(i);
-        if (!lanes_pay())
-            return sample_direct_light<F>(context_.scene, surface, bsdf, u,
-                                          learned_lights<F>(context_.method, block.vertex(i)).learned());
-        const ChosenLight chosen{group(i).light[i % kGroupSize], group(i).probability[i % kGroupSize]};
-        return direct_light_from<F>(
-            context_.scene, surface, bsdf,
-            sample_chosen_light<F>(context_.scene, chosen, Receiver::of(surface), {u.y, u.z}));
+        return sample_direct_light<F>(context_.scene, surface, bsdf, block.light_numbers(i),
+                                      learned_lights<F>(context_.method, block.vertex(i)).learned());
     }
     void sample_lambert(const auto& block, std::uint32_t i) {
         const SurfacePoint surface = block.surface(i);

@@ -1,5 +1,5 @@
 // Light samples for a vector of receivers. Included by one file per instruction set; see lanes.h. Bit-identical to
-// sample_direct_light() at Lambert reflectors, for lights that are sampled over their area.
+// sample_direct_light() at Lambert reflectors.
 #pragma once
 
 #include "cpu/group_rows.h"
@@ -18,7 +18,6 @@ public:
         const Words<LightRecord> light(lights_.lights, number);
         const Real3<Lanes> emission = light.vector(offsetof(LightRecord, emission));
         const LaneFloat pdf_area = luminance_of(emission.x, emission.y, emission.z) / lights_.power;
-        store(number, samples.light);
         sample(light, emission, lights_.power > 0.0f ? pdf_area : LaneFloat{}, samples);
     }
 
@@ -47,28 +46,32 @@ private:
         const LaneInt primitive = light.integer(offsetof(LightRecord, primitive));
         const SpawnPoint<Lanes> from{vector(receivers_.position), vector(receivers_.geometric_normal),
                                      row(receivers_.position_error)};
-        const LaneInt is_near = see_triangle(corners, spawn_origin(from, from.normal)).is_near();
-        const Real3<Lanes> weights =
-            sample_weights(Real2<Lanes>{row(receivers_.light.rows[1]), row(receivers_.light.rows[2])});
-        SpawnPoint<Lanes> point{corners.at(weights), normal, light.real(offsetof(LightRecord, position_error))};
-        const LaneInt behind = is_behind(point, from.position);
+        const Real3<Lanes> origin = spawn_origin(from, from.normal);
+        const TriangleSample<Lanes> sampled =
+            sample_triangle(see_triangle(corners, origin),
+                            Real2<Lanes>{row(receivers_.light.rows[1]), row(receivers_.light.rows[2])});
+        const LaneInt is_near = sampled.area_per_steradian > 0.0f;
+        const Real3<Lanes> seen_from = select(is_near, origin, from.position);
+        SpawnPoint<Lanes> point{corners.at(sampled.weights), normal,
+                                light.real(offsetof(LightRecord, position_error))};
+        const LaneInt behind = is_behind(point, seen_from);
         point.normal = select(behind, -normal, normal);
 
-        const Real3<Lanes> segment = point.position - from.position;
+        const Real3<Lanes> segment = point.position - seen_from;
         const LaneFloat distance2 = dot(segment, segment);
         const Real3<Lanes> wi = scaled(segment, 1.0f / Lanes::sqrt(distance2));
         const LaneFloat cos_i = reflection_cosine(from.normal, vector(receivers_.shading_normal), wi);
-        const LaneFloat pdf_sa = per_steradian<Lanes>(pdf_area, from.position, point, wi);
+        const LaneFloat pdf_sa = select(is_near, pdf_area * sampled.area_per_steradian,
+                                        per_steradian<Lanes>(pdf_area, from.position, point, wi));
         const LaneInt is_seen = (distance2 > 0.0f) & (primitive != integers(receivers_.primitive));
         const LaneFloat seen_pdf_sa = select(is_seen, pdf_sa, LaneFloat{});
         const RaySegment<Lanes> shadow = spawn_segment(from, point);
 
-        store(is_near, samples.is_near);
         store(behind, samples.is_behind);
         store(cos_i, samples.cos_i);
         store(seen_pdf_sa, samples.seen_pdf_sa);
         store(select(cos_i > 0.0f, seen_pdf_sa, LaneFloat{}), samples.pdf_sa);
-        store(weights, samples.weights);
+        store(sampled.weights, samples.weights);
         store(wi, samples.wi);
         store(select(behind, light.vector(offsetof(LightRecord, back_emission)), emission), samples.emitted);
         store(primitive, samples.target);

@@ -170,7 +170,6 @@ public:
             probability = select(has_learned_, mixed, first_probability_);
         }
         store(light, samples.light);
-        store(probability, samples.probability);
         store(pdf_area(light, probability), samples.pdf_area);
         store(cluster_of(light), samples.cluster);
     }

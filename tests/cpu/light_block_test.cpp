@@ -49,7 +49,7 @@ bool same_light(const LightBlock<kLights, KeepsEstimates>& block, std::uint32_t 
 struct Comparison {
     int different = 0;
     int lit = 0;    ///< vertices whose sample can contribute
-    int near = 0;   ///< vertices whose light may be sampled by solid angle
+    int near = 0;   ///< vertices whose sample of a light by solid angle can contribute
     int delta = 0;  ///< vertices whose sample of a delta light can contribute
     int far = 0;    ///< vertices whose sample of a far light can contribute; in rooms without directional lights
 };
@@ -57,6 +57,12 @@ struct Comparison {
 /// In rooms without an environment.
 bool is_of_delta_light(const Ray& shadow) {
     return shadow.target == kDeltaLightTarget || shadow.target == kNoPrimitive;
+}
+
+bool is_of_near_light(const SceneView& scene, const SurfacePoint& surface,
+                      const ShadowRequest<KeepsEstimates>& shadow) {
+    return shadow.wanted && shadow.ray.target < scene.direct_triangles() &&
+           near_solid_angle(see_triangle(scene, shadow.ray.target, Receiver::of(surface).origin)) > 0.0f;
 }
 
 /// Blocks of every size up to the largest one.
@@ -87,7 +93,7 @@ Comparison compare(const Context& context, const LaneKernels& kernels) {
             result.lit += expected[i].wanted ? 1 : 0;
             result.delta += expected[i].wanted && is_of_delta_light(expected[i].ray) ? 1 : 0;
             result.far += expected[i].wanted && expected[i].ray.target == kNoPrimitive ? 1 : 0;
-            result.near += lights->groups()[i / kGroupSize].is_near[i % kGroupSize] != 0 ? 1 : 0;
+            result.near += is_of_near_light(context.scene, points[i].surface, expected[i]) ? 1 : 0;
         }
     }
     return result;

@@ -34,8 +34,12 @@ PL_INLINE SineCosineOf<N> sine_cosine_of_turns(const typename N::Real& turns) {
 PL_HD inline SineCosine sine_cosine_of_turns(float turns) { return sine_cosine_of_turns<One>(turns); }
 
 /// The same of an angle that is not negative: a rounding down is dearer than a truncation.
+template <class N>
+PL_INLINE SineCosineOf<N> sine_cosine_of_positive_turns(const typename N::Real& turns) {
+    return sine_cosine_of_quarters<N>(4.0f * turns, N::to_real(N::truncate(4.0f * turns + 0.5f)));
+}
 PL_HD inline SineCosine sine_cosine_of_positive_turns(float turns) {
-    return sine_cosine_of_quarters<One>(4.0f * turns, static_cast<float>(static_cast<int>(4.0f * turns + 0.5f)));
+    return sine_cosine_of_positive_turns<One>(turns);
 }
 
 /// atan2(y, x) in turns, in [-1/2, 1/2]; 0 at the origin. Absolute error below 1e-7 turns.

@@ -125,6 +125,12 @@ PL_INLINE Real3<N> cross(const Real3<N>& a, const Real3<N>& b) {
     return {a.y * b.z - b.y * a.z, a.z * b.x - b.z * a.x, a.x * b.y - b.x * a.y};
 }
 
+/// At unit length: the bits of glm::normalize().
+template <class N>
+PL_INLINE Real3<N> normalized(const Real3<N>& v) {
+    return scaled(v, 1.0f / N::sqrt(dot(v, v)));
+}
+
 /// Entry of an array of vectors. `index` is below 2^31 / 3.
 template <class N>
 PL_INLINE Real3<N> load_vector(const Vec3f* vectors, const typename N::Int& index) {

@@ -97,14 +97,6 @@ struct LightPoint {
     }
 };
 
-/// Barycentric weights of a uniform point of a triangle; u in [0,1)^2.
-template <class N>
-PL_INLINE Real3<N> sample_weights(const Real2<N>& u) {
-    const Real2<N> b = square_to_triangle(u);
-    return {1.0f - b.x - b.y, b.x, b.y};
-}
-PL_HD inline Vec3f sample_weights(Vec2f u) { return pack(sample_weights(unpack(u))); }
-
 /// Whether a point lies on the side of a light that its normal does not show to.
 template <class N>
 PL_INLINE typename N::Mask is_behind(const SpawnPoint<N>& on_light, const Real3<N>& from) {
@@ -121,19 +113,15 @@ PL_HD inline SurfacePoint light_surface(const SceneView& scene, std::uint32_t pr
     return point;
 }
 
-/// A point on a light: uniform in solid angle if the light is near, else over its area; u in [0,1)^2. Its pdf_area is left to the
-/// caller.
+/// A point on a light, see sample_triangle(). Its pdf_area is left to the caller.
 PL_HD inline LightPoint sample_on_light(const SceneView& scene, std::uint32_t light, const Receiver& receiver,
                                         Vec2f u) {
     const std::uint32_t primitive = scene.lights[light].primitive;
-    const SeenTriangle seen = see_triangle(scene, primitive, receiver.origin);
-    const float solid_angle = near_solid_angle(seen);
-    LightPoint point{.surface = {}, .weights = sample_weights(u), .from = receiver.position};
-    if (solid_angle > 0.0f) {
-        point.weights = weights_towards(seen, square_to_spherical_triangle(directions_of(seen), solid_angle, u));
-        point.from = receiver.origin;
-        point.area_per_steradian = seen.area / solid_angle;
-    }
+    const TriangleSample<One> sample = sample_triangle(see_triangle(scene, primitive, receiver.origin), unpack(u));
+    LightPoint point{.surface = {},
+                     .weights = pack(sample.weights),
+                     .from = sample.area_per_steradian > 0.0f ? receiver.origin : receiver.position,
+                     .area_per_steradian = sample.area_per_steradian};
     point.surface = light_surface(scene, primitive, point.weights, point.from);
     return point;
 }
