@@ -99,6 +99,7 @@ struct PlacementRows {
     const Triangle* triangles = nullptr;
     const TrianglePlane* planes = nullptr;
     const Vec3f* positions = nullptr;
+    const Material* materials = nullptr;
     std::uint32_t sided_triangles = 0;   ///< triangles with sides in the grid
     const VolumePlace* sides = nullptr;  ///< members as in VolumeGridView
     const SideGrid* grids = nullptr;
@@ -119,7 +120,8 @@ struct alignas(64) PointGroup {
     std::uint32_t nodes[VolumeCell::kMostNodes][kGroupSize] = {};  ///< of the cell at the place
     std::int32_t volume[kGroupSize] = {};                          ///< the nearest of the nodes' volumes
     std::uint32_t node[kGroupSize] = {};                           ///< and its node
-    std::uint32_t cells = 0;  ///< one bit per lane: its place is a cell with nodes
+    std::uint32_t wanted = 0;                                      ///< one bit per lane: its volume is looked up
+    std::uint32_t cells = 0;  ///< one bit per lane in `wanted`: its place is a cell, once that is read one with nodes
 };
 
 /// The volumes of a VertexGroup for a method guided by tables. Lanes that were never set have no volume.

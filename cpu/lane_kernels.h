@@ -35,6 +35,8 @@ struct LaneKernels {
     /// The surface points at hits, and the places of their volumes.
     void (*find_points)(const PlacementRows& scene, const RayGroup* rays, const HitGroup* hits, PointGroup* points,
                         std::uint32_t groups);
+    /// Sets PointGroup::wanted of lanes that hit a surface which reflects, and PointGroup::cells.
+    void (*mark_places)(const PlacementRows& scene, const HitGroup* hits, PointGroup* points, std::uint32_t groups);
     /// Reads the cells at the places of the lanes in PointGroup::cells, takes lanes out of it whose cells have no nodes, and
     /// prefetches the nodes of the others.
     void (*read_cells)(const PlacementRows& scene, PointGroup* points, std::uint32_t groups);

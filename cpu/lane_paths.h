@@ -1,6 +1,8 @@
 // The paths of a batch that stay in SIMD lanes, with all that the stages of the batch share.
 #pragma once
 
+#include <new>
+
 #include "cpu/guided_memory.h"
 #include "cpu/pass_setup.h"
 #include "cpu/path_rows.h"
@@ -19,7 +21,31 @@ struct LanePaths {
     bool splits() const { return SplittingMethod<M> && splits_paths(setup.path); }
     /// The lookups of the block of path i, while those of the next one are under way.
     auto& lookups_of(std::uint32_t i) requires(TableGuided<M>) { return guided.lookups[i / kPathBlock % 2]; }
+    static constexpr bool can_look_ahead() { return true; }
     StepOutput<M> output(typename M::Sample& sample) { return {sample, counters.path}; }
+
+    RayBatch& rays() { return rows.rays; }
+    NumberBatch& numbers() { return rows.numbers; }
+    /// Path i is that which begin() returns. `store`: its own, or null.
+    PL_INLINE void start(std::uint32_t i, [[maybe_unused]] PathStore<M>* store, const auto& begin) {
+        if (!rows.keeps_states()) {
+            rows.start(i, begin());
+        } else if constexpr (!Hookless<M>) {
+            PathState<F, M>& state = rows.of_method(i);
+            ::new (static_cast<void*>(&state)) PathState<F, M>(begin());  // as in StatePaths
+            if (store != nullptr) keep_store(state, store);
+            rows.start(i, state);
+        }
+    }
+    /// The state of path i, which may be `local`.
+    PathState<F, M>& read(std::uint32_t i, PathState<F, M>& local) { return rows.read(i, local); }
+    /// Path i goes on from this state.
+    void go_on(std::uint32_t i, const PathState<F, M>& state) {
+        rows.set(i, state);
+        if constexpr (LaneLearning<M> && !std::is_empty_v<typename M::Sample>) rows.set_open_sample(i, state.memory);
+    }
+    /// Path `from` continues in the place of path `to`.
+    void move(std::uint32_t from, std::uint32_t to) { rows.move(from, to); }
 
     const PassSetup& setup;
     M method;

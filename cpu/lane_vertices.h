@@ -6,7 +6,7 @@
 #include "cpu/direction_block.h"
 #include "cpu/lane_block.h"
 #include "cpu/lane_paths.h"
-#include "cpu/shadow_batch.h"
+#include "cpu/lane_shadows.h"
 #include "cpu/table_learning.h"
 
 namespace pl {
@@ -16,12 +16,14 @@ class LaneVertices {
 public:
     explicit LaneVertices(LanePaths<F, M>& paths) : paths_(paths) {}
 
+    /// Told that the blocks of the first `active` paths follow.
+    void begin(std::uint32_t /*active*/) {}
     /// Shades and scatters the `count` paths from `first` on, a multiple of kPathBlock, and packs their shadow rays. Returns the paths
     /// that have ended, one bit each.
     [[gnu::flatten, gnu::noinline]] std::uint64_t extend(std::uint32_t first, std::uint32_t count,
-                                                         ShadowBatch<F, M>& shadows) {
+                                                         LaneShadows<F, M>& shadows) {
         first_ = first;
-        block_ = rows_of(count);
+        block_ = block_of(count);
         vertices_.clear(count);
         if constexpr (LaneLearning<M>) {
             directions_.clear();
@@ -48,7 +50,7 @@ private:
     /// Number of path k of the block in the batch.
     std::uint32_t path(std::uint32_t k) const { return first_ + k; }
 
-    BlockRows rows_of(std::uint32_t count) {
+    BlockRows block_of(std::uint32_t count) {
         const std::uint32_t group = first_ / kGroupSize;
         NumberBatch& numbers = paths_.rows.numbers;
         const NumberGroup* light = numbers.light_groups();
@@ -63,18 +65,11 @@ private:
     }
     const PointGroup* points_at_hits([[maybe_unused]] std::uint32_t count) {
         if constexpr (TableGuided<M>) {
-            return paths_.lookups_of(first_).points();
+            return paths_.lookups_of(first_).surfaces().points();
         } else {
             const SceneView& scene = paths_.setup.scene;
-            const RayBatch& rays = paths_.rows.rays;
-            const std::uint32_t group = first_ / kGroupSize;
-            if (has_surfaces(scene))
-                paths_.kernels.find_points({.triangles = scene.triangles.data,
-                                            .planes = scene.planes.data,
-                                            .positions = scene.positions.data},
-                                           rays.ray_groups() + group, rays.hit_groups() + group, points_,
-                                           group_count(count));
-            return points_;
+            surfaces_.find(scene, rows_of(scene), paths_.rays(), first_, first_ + count);
+            return surfaces_.points();
         }
     }
 
@@ -202,7 +197,7 @@ private:
     }
 
     /// Samples and weighs the lights of the vertices, and packs their shadow rays.
-    void request_lights(std::uint64_t reached, ShadowBatch<F, M>& shadows) {
+    void request_lights(std::uint64_t reached, LaneShadows<F, M>& shadows) {
         lights_.sample(vertices_);
         directions_.weigh_lights(vertices_, lights_.groups());
         lights_.weigh(vertices_, directions_.groups());
@@ -281,7 +276,7 @@ private:
     std::uint32_t first_ = 0;  ///< path of the block
     BlockRows block_{};
     LaneBlock<M> vertices_;
-    PointGroup points_[kBlockGroups];
+    SurfaceBlock surfaces_;        ///< unless the method looks volumes up ahead
     float estimates_[kPathBlock];  ///< of contributions
     [[no_unique_address]] LightBlock<F, M> lights_{paths_.context, paths_.setup.lights};
     DirectionBlock<F, M> directions_{paths_.method};

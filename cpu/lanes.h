@@ -93,6 +93,41 @@ PL_INLINE LaneWide multiply_low_halves(LaneWide lanes, std::uint32_t factor) {
 #endif
 }
 
+#if defined(__AVX512F__)
+using ByteLanes = __m512i;
+PL_INLINE ByteLanes shuffle_bytes(ByteLanes bytes, ByteLanes order) {
+    return _mm512_maskz_shuffle_epi8(~0ull, bytes, order);  // masked as above
+}
+#elif defined(__AVX2__)
+using ByteLanes = __m256i;
+PL_INLINE ByteLanes shuffle_bytes(ByteLanes bytes, ByteLanes order) { return _mm256_shuffle_epi8(bytes, order); }
+#endif
+#if defined(__AVX2__)
+/// The bits of each lane in reverse order: those of each half byte by a table, and the bytes by a shuffle.
+PL_INLINE LaneUint reversed_lanes(const LaneUint& lanes) {
+    constexpr std::uint32_t kHalfBytes = 0x0f0f0f0fu;
+    // Bytes 0 to 15, repeated: the reverse of their number in the upper and in the lower half of a byte; 3, 2, 1, 0, 7, 6, 5, 4, ...
+    const auto repeated = [](std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
+        LaneUint words;
+        for (std::uint32_t i = 0; i < kLaneWidth; i += 4) {
+            words[i] = a;
+            words[i + 1] = b;
+            words[i + 2] = c;
+            words[i + 3] = d;
+        }
+        return words;
+    };
+    const LaneUint upper = repeated(0xc0408000u, 0xe060a020u, 0xd0509010u, 0xf070b030u);
+    const LaneUint order = repeated(0x00010203u, 0x04050607u, 0x08090a0bu, 0x0c0d0e0fu);
+    const auto look_up = [](const LaneUint& table, const LaneUint& half_bytes) {
+        return std::bit_cast<LaneUint>(
+            shuffle_bytes(std::bit_cast<ByteLanes>(table), std::bit_cast<ByteLanes>(half_bytes)));
+    };
+    const LaneUint bytes = look_up(upper, lanes & kHalfBytes) | look_up(upper >> 4, (lanes >> 4) & kHalfBytes);
+    return std::bit_cast<LaneUint>(shuffle_bytes(std::bit_cast<ByteLanes>(bytes), std::bit_cast<ByteLanes>(order)));
+}
+#endif
+
 /// Packs a mask into one bit per lane, lane 0 in the lowest bit.
 PL_INLINE std::uint32_t mask_bits(LaneInt mask) {
 #if defined(__AVX512F__)

@@ -67,6 +67,13 @@ void find_points(const PlacementRows& scene, const RayGroup* rays, const HitGrou
     });
 }
 
+void mark_places(const PlacementRows& scene, const HitGroup* hits, PointGroup* points, std::uint32_t groups) {
+    for (std::uint32_t group = 0; group < groups; ++group) points[group].wanted = points[group].cells = 0;
+    for_lookup_lanes(scene, groups, [&](const LookupLanes& lanes, std::uint32_t group) {
+        lanes.mark_places(hits[group], points[group]);
+    });
+}
+
 void read_cells(const PlacementRows& scene, PointGroup* points, std::uint32_t groups) {
     read_cells_of_groups(scene, points, groups);
 }
@@ -223,6 +230,7 @@ constexpr LaneKernels lane_kernels_named(const char* name) {
             draw_vertices,
             find_camera_directions,
             find_points,
+            mark_places,
             read_cells,
             find_nearest,
             sample_rows,

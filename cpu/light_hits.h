@@ -20,13 +20,14 @@ public:
     bool wanted() const {
         return lights_ != nullptr && context_.settings.next_event != 0 && !context_.scene.light_tree.empty();
     }
-    /// For the hits of the first `count` paths. `states` says from where they come.
-    void find(const RayBatch& rays, const std::vector<PathState<F, M>>& states, std::uint32_t count) {
+    /// For the hits of the first `count` paths. `state_of`: the PathState of a path, by its number.
+    void find(const RayBatch& rays, std::uint32_t count, const auto& state_of) {
         count_ = 0;
         for (std::uint32_t path = 0; path < count; ++path) {
             const std::uint32_t primitive = rays.primitive(path);
             if (!lights_->is_light(primitive)) continue;
-            if (states[path].direction_pdf_sa > 0.0f) add(path, primitive, states[path]);
+            const PathState<F, M>& state = state_of(path);
+            if (state.direction_pdf_sa > 0.0f) add(path, primitive, state);
         }
         kernels_.find_light_densities(rows_of(context_.scene.light_tree, learned_.numbers()), hits_.data(),
                                       group_count(count_));

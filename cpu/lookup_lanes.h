@@ -32,6 +32,15 @@ public:
         store(place_of(primitive, front, position), reinterpret_cast<std::int32_t*>(points.place));
     }
 
+    PL_INLINE void mark_places(const HitGroup& hits, PointGroup& points) const {
+        const LaneInt is_hit = integers(hits.primitive) != static_cast<std::int32_t>(kNoPrimitive);
+        const Words<Material> material(scene_.materials, integers(points.material));
+        const LaneInt wanted = is_hit & ~is_black(material.vector(offsetof(Material, albedo)));
+        const LaneInt is_cell = kind_of(integers(points.place)) == static_cast<std::int32_t>(VolumePlace::Kind::Cell);
+        points.wanted |= mask_bits(wanted) << first();
+        points.cells |= mask_bits(wanted & is_cell) << first();
+    }
+
     PL_INLINE void read_cells(PointGroup& points, std::uint32_t& with_nodes) const {
         const LaneInt wanted = lanes_of(points.cells);
         const LaneInt number = integers(points.place) & static_cast<std::int32_t>(VolumePlace::kNone);

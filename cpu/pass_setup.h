@@ -29,13 +29,15 @@ struct PassSetup {
 };
 
 /// A set of paths numbered from 0: creates their first rays and stores their radiance. start_key() decides their random
-/// numbers at vertex 0; finish() returns true if the sample is valid.
+/// numbers at vertex 0; finish() returns true if the sample is valid; prefetch() asks for the memory that finish() needs, for
+/// PathState::pixel of the path.
 template <class W, FeatureSet F, class M>
 concept PathWork = requires(const W& work, const PathSettings& path, const PathStart& start,
                             const PathState<F, M>& state, PassCounters& counters) {
     { work.count() } -> std::same_as<std::uint32_t>;
     { work.start_key(path) } -> std::same_as<StartKey>;
     { work.begin(start) } -> std::same_as<PathState<F, M>>;
+    { work.prefetch(start.number) } -> std::same_as<void>;
     { work.finish(state, counters) } -> std::same_as<bool>;
 };
 

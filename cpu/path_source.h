@@ -11,7 +11,7 @@ namespace pl {
 /// Paths per claim. A thread finishes every path that it claims.
 inline constexpr std::uint32_t kPathChunk = 256;
 
-/// Sets of features whose paths stay in SIMD lanes, see lane_path_batch.h; camera rays are made there, too.
+/// Sets of features whose paths stay in SIMD lanes, see path_batch.h; camera rays are made there, too.
 inline constexpr FeatureSet kLaneFeatures =
     features(Feature::SmoothNormals, Feature::Environment, Feature::NextEventEstimation);
 

@@ -29,12 +29,13 @@ struct PictureWork {
     }
     PathState<F, M> begin(const PathStart& start) const {
         const std::uint32_t pixel = subset.pixel(start.number);
-        __builtin_prefetch(&film.pixels[pixel], 1);  // films exceed the cache
+        prefetch(pixel);  // films exceed the cache
         if constexpr (kLaneFeatures.covers(F))
             return begin_path<F, M>(Ray{.origin = camera.eye, .direction = start.direction}, grid(), pixel);
         else
             return begin_path<F, M>(camera, grid(), pixel, start.u);
     }
+    void prefetch(std::uint32_t pixel) const { __builtin_prefetch(&film.pixels[pixel], 1); }
     bool finish(const PathState<F, M>& state, PassCounters& counters) const {
         return use_sample(film, state.pixel, state.radiance, sample, use, counters.variance);
     }
@@ -56,6 +57,7 @@ struct ProbeWork {
     PathState<F, ProbeMethod> begin(const PathStart& start) const {
         return begin_probe<F>(field, start.number, stratum, start.u);
     }
+    void prefetch(std::uint32_t /*probe*/) const {}
     bool finish(const PathState<F, ProbeMethod>& state, PassCounters& counters) const {
         finish_probe(field, state, counters.path.method);
         return is_valid_radiance(state.radiance);

@@ -6,6 +6,14 @@
 #include "cpu/lanes.h"
 
 namespace pl {
+
+#if defined(__AVX2__)
+template <>
+struct BitReversal<LaneUint> {
+    static PL_INLINE LaneUint of(const LaneUint& x) { return reversed_lanes(x); }
+};
+#endif
+
 namespace {
 
 /// 64-bit products of 32-bit lanes and one factor.

@@ -3,14 +3,9 @@
 
 #include <vector>
 
-#include "cpu/lane_path_batch.h"
 #include "cpu/path_batch.h"
 
 namespace pl {
-
-/// The batch for paths of M among the effects of F.
-template <FeatureSet F, Method M, BatchIntersector I, PathWork<F, M> W>
-using BatchOf = std::conditional_t<kLaneFeatures.covers(F), LanePathBatch<F, M, I, W>, PathBatch<F, M, I, W>>;
 
 /// Traces the paths of `work` on setup.threads threads.
 template <FeatureSet F, Method M, BatchIntersector I, PathWork<F, M> W>
@@ -20,7 +15,7 @@ PassCounters run_paths(const PassSetup& setup, const I& intersector, const M& me
     std::vector<PassCounters> counters(static_cast<std::size_t>(setup.threads));
     run_on_threads(setup.threads, [&](int thread) {
         PathSource source(queue, work.start_key(setup.path));
-        BatchOf<F, M, I, W> batch(setup, intersector, method, work, shared);
+        PathBatch<F, M, I, W> batch(setup, intersector, method, work, shared);
         counters[static_cast<std::size_t>(thread)] = batch.run(source);
     });
     PassCounters total;

@@ -16,17 +16,23 @@ public:
         : scene_(scene), intersector_(intersector), rest_(wanted(scene) ? capacity : 0),
           waiting_(wanted(scene) ? capacity : 0) {}
 
-    /// True if the scene has holes: then shadow rays, too, need solid hits.
-    static bool wanted(const SceneView& scene) { return F.has(Feature::CutOuts) && !scene.opacities.empty(); }
-
     void find_closest(RayBatch& batch, std::uint32_t count) {
         intersector_.find_closest(batch, count);
         if constexpr (F.has(Feature::CutOuts)) {
             if (wanted(scene_)) pass_holes(batch, count);
         }
     }
+    /// Marks the rays that a surface outside of holes occludes.
+    void find_occluded(RayBatch& batch, std::uint32_t count) {
+        if (!wanted(scene_)) return intersector_.find_occluded(batch, count);
+        find_closest(batch, count);
+        for (std::uint32_t i = 0; i < count; ++i) batch.set_occluded(i, batch.hit(i).found());
+    }
 
 private:
+    /// Whether the scene has holes.
+    static bool wanted(const SceneView& scene) { return F.has(Feature::CutOuts) && !scene.opacities.empty(); }
+
     struct Waiting {
         std::uint32_t index;
         float passed;

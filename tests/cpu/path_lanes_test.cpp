@@ -1,5 +1,5 @@
 // The steps of paths that stay in SIMD lanes are those of the scalar code, bit for bit, by every instruction set.
-#include "cpu/lane_path_batch.h"
+#include "cpu/lane_vertices.h"
 
 #include <cstring>
 

@@ -8,7 +8,7 @@
 #include "core/kernel/integrator/lamp_borders.h"
 #include "core/kernel/integrator/probe.h"
 #include "core/kernel/integrator/trace_path.h"
-#include "cpu/lane_path_batch.h"
+#include "cpu/path_source.h"
 #include "tests/cpu/small_room.h"
 #include "tests/support/catch.hpp"
 #include "tests/support/field/guided_methods.h"

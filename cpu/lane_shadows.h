@@ -10,9 +10,9 @@
 namespace pl {
 
 template <FeatureSet F, Method M>
-class ShadowBatch {
+class LaneShadows {
 public:
-    explicit ShadowBatch(LanePaths<F, M>& paths)
+    explicit LaneShadows(LanePaths<F, M>& paths)
         : paths_(paths), rays_(paths.setup.batch_paths),
           lit_((paths.setup.batch_paths + kPathBlock - 1) / kPathBlock), kept_(kBlockGroups * lit_.size()),
           of_method_(Hookless<M> ? 0 : paths.setup.batch_paths) {
@@ -33,11 +33,10 @@ public:
         if constexpr (!Hookless<M>) tell_method(first, vertices, lights, {reached, lit.bits(), before});
     }
 
-    /// Adds the light samples of the first `active` paths that are not occluded.
-    template <BatchIntersector I>
-    [[gnu::flatten, gnu::noinline]] void connect(const I& intersector, std::uint32_t active) {
+    /// Adds the light samples of the first `active` paths that are not occluded. `hits`: SolidHits.
+    [[gnu::flatten, gnu::noinline]] void connect(auto& hits, std::uint32_t active) {
         if (count_ == 0) return;
-        intersector.find_occluded(rays_, count_);
+        hits.find_occluded(rays_, count_);
         std::uint32_t ray = 0;
         for (std::uint32_t first = 0; first < active; first += kPathBlock) {
             BlockBits& lit = lit_[first / kPathBlock];
@@ -96,11 +95,11 @@ private:
 };
 /// Lights are not sampled.
 template <FeatureSet F, Method M>
-requires(!F.has(Feature::NextEventEstimation)) class ShadowBatch<F, M> {
+requires(!F.has(Feature::NextEventEstimation)) class LaneShadows<F, M> {
 public:
-    explicit ShadowBatch(LanePaths<F, M>&) {}
+    explicit LaneShadows(LanePaths<F, M>&) {}
     void clear() {}
-    void connect(const auto&, std::uint32_t) {}
+    void connect(auto&, std::uint32_t) {}
 };
 
 }  // namespace pl

@@ -1,0 +1,70 @@
+// The paths of a batch with a PathState each, with all that the stages of the batch share.
+#pragma once
+
+#include <new>
+#include <vector>
+
+#include "cpu/guided_memory.h"
+#include "cpu/number_batch.h"
+#include "cpu/pass_setup.h"
+
+namespace pl {
+
+template <FeatureSet F, Method M>
+class StatePaths {
+public:
+    using State = PathState<F, M>;
+
+    StatePaths(const PassSetup& arguments, const M& of, SharedByThreads<M>& shared)
+        : setup(arguments), method(of), guided(method, shared), states_(setup.batch_paths), rays_(setup.batch_paths),
+          numbers_(setup.batch_paths, samples_lights()) {}
+    StatePaths(const StatePaths&) = delete;
+    StatePaths& operator=(const StatePaths&) = delete;
+
+    bool samples_lights() const { return F.has(Feature::NextEventEstimation) && setup.path.next_event != 0; }
+    /// Points of instances are made, and their volumes found, path by path.
+    bool can_look_ahead() const { return !F.has(Feature::Instances) || setup.scene.instances.empty(); }
+    /// The lookups of the block of path i, while those of the next one are under way.
+    auto& lookups_of(std::uint32_t i) requires(TableGuided<M>) { return guided.lookups[i / kPathBlock % 2]; }
+    StepOutput<M> output(typename M::Sample& sample) { return {sample, counters.path}; }
+
+    RayBatch& rays() { return rays_; }
+    NumberBatch& numbers() { return numbers_; }
+    State& state(std::uint32_t i) { return states_[i]; }
+
+    /// Path i is that which begin() returns. `store`: its own, or null.
+    PL_INLINE void start(std::uint32_t i, PathStore<M>* store, const auto& begin) {
+        // Constructed in place: the wide loads of a copy would stall, since narrower stores do not forward to them.
+        ::new (static_cast<void*>(&states_[i])) State(begin());
+        if (store != nullptr) keep_store(states_[i], store);
+        send(i);
+    }
+    /// The state of path i.
+    State& read(std::uint32_t i, State& /*local*/) { return states_[i]; }
+    /// Path i goes on from its state.
+    void go_on(std::uint32_t i, const State& /*state*/) { send(i); }
+    /// Copies the ray and the random-number counter of path i into the arrays of the batch.
+    void send(std::uint32_t i) {
+        rays_.set_ray(i, states_[i].ray);
+        numbers_.set_path(i, states_[i]);
+    }
+    /// Path `from` continues in the place of path `to`.
+    void move(std::uint32_t from, std::uint32_t to) {
+        states_[to] = states_[from];
+        send(to);
+    }
+
+    const PassSetup& setup;
+    M method;
+    const PathContext<M> context{setup.scene, method, setup.path};
+    GuidedMemory<M> guided;
+    LaneKernels kernels = best_lane_kernels();
+    PassCounters counters;
+
+private:
+    std::vector<State> states_;
+    RayBatch rays_;
+    NumberBatch numbers_;
+};
+
+}  // namespace pl
