@@ -1,5 +1,5 @@
-// The vertices of a block of paths that have a PathState each: from hits to the next rays. Surface points, lights and directions are found
-// in SIMD lanes; the rest is done path by path.
+// The vertices of a block of paths that have a PathState each: from hits to the next rays. Lights and directions are found in SIMD lanes,
+// and volumes with their surface points; the rest is done path by path.
 #pragma once
 
 #include "core/kernel/integrator/steps.h"
@@ -32,8 +32,6 @@ public:
         first_ = first;
         vertices_.clear();
         directions_.clear();
-        if (!TableGuided<M> && paths_.can_look_ahead())
-            surfaces_.find(paths_.setup.scene, rows_of(paths_.setup.scene), paths_.rays(), first, first + count);
         for (std::uint32_t i = first; i < first + count; ++i) shade(i);
         directions_.complete(vertices_);
         if constexpr (F.has(Feature::NextEventEstimation)) {
@@ -98,8 +96,6 @@ private:
                 paths_.method.found = lookups.found(i);
                 return lookups.surfaces().template surface<F>(scene, hit, i);
             }
-        } else {
-            if (paths_.can_look_ahead()) return surfaces_.template surface<F>(scene, hit, i);
         }
         return make_surface_point<F>(scene, hit, -paths_.state(i).ray.direction);
     }
@@ -199,7 +195,6 @@ private:
 
     StatePaths<F, M>& paths_;
     std::uint32_t first_ = 0;  ///< path of the block
-    SurfaceBlock surfaces_;    ///< unless the method looks volumes up ahead
     VertexBlock<F, M> vertices_;
     [[no_unique_address]] LightBlock<F, M> lights_{paths_.context, paths_.setup.lights};
     [[no_unique_address]] LightHits<F, M> light_hits_{paths_.context, paths_.setup.lights, paths_.setup.batch_paths};
