@@ -1,28 +1,21 @@
-// The paths of a batch that stay in SIMD lanes, with all that the stages of the batch share.
+// The paths of a batch that stay in SIMD lanes.
 #pragma once
 
 #include <new>
 
-#include "cpu/guided_memory.h"
-#include "cpu/pass_setup.h"
+#include "cpu/batch_paths.h"
 #include "cpu/path_rows.h"
 
 namespace pl {
 
 template <FeatureSet F, Method M>
-struct LanePaths {
+struct LanePaths : BatchPaths<F, M> {
     LanePaths(const PassSetup& arguments, const M& of, SharedByThreads<M>& shared)
-        : setup(arguments), method(of), rows(setup.batch_paths, samples_lights(), splits()), guided(method, shared) {}
-    LanePaths(const LanePaths&) = delete;
-    LanePaths& operator=(const LanePaths&) = delete;
+        : BatchPaths<F, M>(arguments, of, shared), rows(arguments.batch_paths, this->samples_lights(), splits()) {}
 
-    bool samples_lights() const { return F.has(Feature::NextEventEstimation) && setup.path.next_event != 0; }
     /// Whether paths may be split: then roulette is played path by path.
-    bool splits() const { return SplittingMethod<M> && splits_paths(setup.path); }
-    /// The lookups of the block of path i, while those of the next one are under way.
-    auto& lookups_of(std::uint32_t i) requires(TableGuided<M>) { return guided.lookups[i / kPathBlock % 2]; }
+    bool splits() const { return SplittingMethod<M> && splits_paths(this->setup.path); }
     static constexpr bool can_look_ahead() { return true; }
-    StepOutput<M> output(typename M::Sample& sample) { return {sample, counters.path}; }
 
     RayBatch& rays() { return rows.rays; }
     NumberBatch& numbers() { return rows.numbers; }
@@ -47,13 +40,7 @@ struct LanePaths {
     /// Path `from` continues in the place of path `to`.
     void move(std::uint32_t from, std::uint32_t to) { rows.move(from, to); }
 
-    const PassSetup& setup;
-    M method;
-    const PathContext<M> context{setup.scene, method, setup.path};
     PathRows<F, M> rows;
-    GuidedMemory<M> guided;
-    LaneKernels kernels = best_lane_kernels();
-    PassCounters counters;
 };
 
 }  // namespace pl

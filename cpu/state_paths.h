@@ -1,32 +1,25 @@
-// The paths of a batch with a PathState each, with all that the stages of the batch share.
+// The paths of a batch with a PathState each.
 #pragma once
 
 #include <new>
 #include <vector>
 
-#include "cpu/guided_memory.h"
+#include "cpu/batch_paths.h"
 #include "cpu/number_batch.h"
-#include "cpu/pass_setup.h"
 
 namespace pl {
 
 template <FeatureSet F, Method M>
-class StatePaths {
+class StatePaths : public BatchPaths<F, M> {
 public:
     using State = PathState<F, M>;
 
     StatePaths(const PassSetup& arguments, const M& of, SharedByThreads<M>& shared)
-        : setup(arguments), method(of), guided(method, shared), states_(setup.batch_paths), rays_(setup.batch_paths),
-          numbers_(setup.batch_paths, samples_lights()) {}
-    StatePaths(const StatePaths&) = delete;
-    StatePaths& operator=(const StatePaths&) = delete;
+        : BatchPaths<F, M>(arguments, of, shared), states_(arguments.batch_paths), rays_(arguments.batch_paths),
+          numbers_(arguments.batch_paths, this->samples_lights()) {}
 
-    bool samples_lights() const { return F.has(Feature::NextEventEstimation) && setup.path.next_event != 0; }
     /// Points of instances are made, and their volumes found, path by path.
-    bool can_look_ahead() const { return !F.has(Feature::Instances) || setup.scene.instances.empty(); }
-    /// The lookups of the block of path i, while those of the next one are under way.
-    auto& lookups_of(std::uint32_t i) requires(TableGuided<M>) { return guided.lookups[i / kPathBlock % 2]; }
-    StepOutput<M> output(typename M::Sample& sample) { return {sample, counters.path}; }
+    bool can_look_ahead() const { return !F.has(Feature::Instances) || this->setup.scene.instances.empty(); }
 
     RayBatch& rays() { return rays_; }
     NumberBatch& numbers() { return numbers_; }
@@ -53,13 +46,6 @@ public:
         states_[to] = states_[from];
         send(to);
     }
-
-    const PassSetup& setup;
-    M method;
-    const PathContext<M> context{setup.scene, method, setup.path};
-    GuidedMemory<M> guided;
-    LaneKernels kernels = best_lane_kernels();
-    PassCounters counters;
 
 private:
     std::vector<State> states_;
