@@ -19,7 +19,7 @@ struct LanePaths : BatchPaths<F, M> {
 
     RayBatch& rays() { return rows.rays; }
     NumberBatch& numbers() { return rows.numbers; }
-    /// Path i is that which begin() returns. `store`: its own, or null.
+    /// Starts path i with the state that begin() returns. `store`: of path i, or null.
     PL_INLINE void start(std::uint32_t i, [[maybe_unused]] PathStore<M>* store, const auto& begin) {
         if (!rows.keeps_states()) {
             rows.start(i, begin());

@@ -16,7 +16,7 @@ class LaneVertices {
 public:
     explicit LaneVertices(LanePaths<F, M>& paths) : paths_(paths) {}
 
-    /// Told that the blocks of the first `active` paths follow.
+    /// Call once before extend() is called for the blocks of the first `active` paths.
     void begin(std::uint32_t /*active*/) {}
     /// Shades and scatters the `count` paths from `first` on, a multiple of kPathBlock, and packs their shadow rays. Returns the paths
     /// that have ended, one bit each.

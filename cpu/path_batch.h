@@ -92,7 +92,7 @@ private:
     /// Finishes ended paths and refills their places with new paths, or with the last paths of the batch.
     [[gnu::flatten, gnu::noinline]] void retire(PathSource& source) {
         for (std::uint32_t block = 0; block * kPathBlock < active_; ++block) {
-            // From the L2 cache, where it has been since the paths started.
+            // Pixels of the film: the prefetch of begin() has brought them to the L2 cache only.
             for_bits(ended_[block],
                      [&](std::uint32_t k) { work_.prefetch(paths_.numbers().pixel(block * kPathBlock + k)); });
             while (ended_[block] != 0) {

@@ -25,7 +25,7 @@ public:
     NumberBatch& numbers() { return numbers_; }
     State& state(std::uint32_t i) { return states_[i]; }
 
-    /// Path i is that which begin() returns. `store`: its own, or null.
+    /// Starts path i with the state that begin() returns. `store`: of path i, or null.
     PL_INLINE void start(std::uint32_t i, PathStore<M>* store, const auto& begin) {
         // Constructed in place: the wide loads of a copy would stall, since narrower stores do not forward to them.
         ::new (static_cast<void*>(&states_[i])) State(begin());

@@ -16,7 +16,7 @@ class StateVertices {
 public:
     explicit StateVertices(StatePaths<F, M>& paths) : paths_(paths) {}
 
-    /// Told that the blocks of the first `active` paths follow.
+    /// Call once before extend() is called for the blocks of the first `active` paths.
     void begin([[maybe_unused]] std::uint32_t active) {
         if constexpr (F.has(Feature::ManyLights)) {
             if (light_hits_.wanted())
