@@ -25,7 +25,7 @@ pl_require(cli11 CLI11 CLI11::CLI11 libcli11-dev)
 pl_require(json nlohmann_json nlohmann_json::nlohmann_json nlohmann-json3-dev)
 pl_require(tinyobjloader tinyobjloader tinyobjloader::tinyobjloader libtinyobjloader-dev)
 pl_require(pugixml pugixml pugixml::pugixml libpugixml-dev)
-pl_require(tinyexr tinyexr tinyexr::tinyexr libtinyexr-dev)
+pl_require(openexr OpenEXR OpenEXR::OpenEXR libopenexr-dev)
 
 find_package(Threads REQUIRED)
 pl_wrap(threads Threads::Threads)

@@ -25,9 +25,11 @@ struct Picture {
 };
 
 /// Throws Error(Input) also for a picture with NaN or infinite pixels, whose error is undefined.
-Picture read_picture(const std::string& path) {
+Picture read_picture(const std::string& path, Console& console) {
     Picture picture{.path = path, .image = {}, .metadata = {}};
-    picture.image = read_linear(path, &picture.metadata);
+    std::vector<std::string> warnings;
+    picture.image = read_linear(path, &picture.metadata, &warnings);
+    for (const std::string& warning : warnings) console.log().warning(warning);
     const LinearImage& image = picture.image;
     if (const std::size_t invalid = count_invalid(image.pixels); invalid > 0) {
         const std::size_t first = first_invalid(image.pixels);
@@ -103,7 +105,7 @@ MeasuredError compare(const Picture& picture, const std::string& reference, std:
         const std::vector<Vec3f> mean = weighted_mean(first.image.pixels, first.spp, second.image.pixels, second.spp);
         return compare(picture, found.pixels(), mean, resolution);
     }
-    const Picture other = read_picture(reference);
+    const Picture other = read_picture(reference, console);
     check_pair(picture, other, console);
     return compare(picture, {other.image.pixels, other.image.pixels}, other.image.pixels, resolution);
 }
@@ -136,7 +138,7 @@ std::string text_of(const MeasuredError& comparison, std::optional<double> resol
 
 int run_compare(const CommandLine& line, Console& console) {
     const std::optional<double> resolution = flip_resolution(line.options);
-    const Picture picture = read_picture(line.options.inputs[0]);
+    const Picture picture = read_picture(line.options.inputs[0], console);
     const std::string& reference = line.options.inputs[1];
     const MeasuredError comparison = compare(picture, reference, resolution, console);
     const Metrics& metrics = comparison.metrics;

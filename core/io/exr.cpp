@@ -1,230 +1,238 @@
-// OpenEXR by tinyexr.
+// OpenEXR by the library of this name. Its types stay in this file.
 #include "core/io/image.h"
 
 #include <algorithm>
 #include <array>
-#include <cstdlib>
-#include <cstring>
-#include <memory>
-#include <string_view>
+#include <cmath>
+#include <cstdint>
 
 #include <fmt/format.h>
-#include <tinyexr.h>
+#include <Iex.h>
+#include <ImfArray.h>
+#include <ImfChannelList.h>
+#include <ImfChromaticities.h>
+#include <ImfFrameBuffer.h>
+#include <ImfHeader.h>
+#include <ImfInputPart.h>
+#include <ImfMultiPartInputFile.h>
+#include <ImfOutputFile.h>
+#include <ImfPartType.h>
+#include <ImfRgbaFile.h>
+#include <ImfStandardAttributes.h>
+#include <ImfStdIO.h>
+#include <ImfStringAttribute.h>
+#include <ImfTileDescription.h>
 
 #include "core/base/error.h"
+#include "core/io/exr_layers.h"
 #include "core/io/files.h"
 #include "core/io/image_checks.h"
 
 namespace pl {
-
 namespace {
 
-constexpr std::size_t kMostAttributes = 100;                       // the library reads back up to 128
-constexpr std::array<const char*, 3> kChannels = {"B", "G", "R"};  // files hold channels in alphabetical order
+constexpr int kThreads = 0;
+constexpr std::array<const char*, 3> kColors = {"R", "G", "B"};
 
-/// Copies and frees a message of the library.
-std::string take_message(const char* message) {
-    const std::string text = message != nullptr ? message : "unknown error";
-    if (message != nullptr) {
-        FreeEXRErrorMessage(message);
-    }
-    return text;
-}
+/// As many rows as are read at once: memory grows with what the file has, whatever size its header says.
+constexpr int kRowsAtOnce = 64;
 
-void copy_name(char (&to)[256], std::string_view name) {
-    name = name.substr(0, sizeof(to) - 1);
-    std::copy(name.begin(), name.end(), to);
-    to[name.size()] = '\0';
-}
-
-std::vector<EXRAttribute> to_attributes(const ImageMetadata& metadata) {
-    std::vector<EXRAttribute> attributes;
-    for (const auto& [name, value] : metadata) {
-        if (attributes.size() == kMostAttributes) {
-            break;
-        }
-        EXRAttribute attribute{};
-        copy_name(attribute.name, name);
-        copy_name(attribute.type, "string");
-        // The library does not modify it.
-        attribute.value = reinterpret_cast<unsigned char*>(const_cast<char*>(value.data()));
-        attribute.size = static_cast<int>(value.size());
-        attributes.push_back(attribute);
-    }
-    return attributes;
-}
-
-/// The planes B, G, R, [plane][row][column].
-std::array<std::vector<float>, 3> to_planes(const LinearImage& image) {
-    std::array<std::vector<float>, 3> planes;
-    for (std::size_t c = 0; c < 3; ++c) {
-        planes[c].reserve(image.pixels.size());
-        for (const glm::vec3& pixel : image.pixels) {
-            planes[c].push_back(pixel[static_cast<int>(2 - c)]);
-        }
-    }
-    return planes;
+/// The library makes tables of this length before anyone can look at the size.
+void limit_library() {
+    constexpr int kMostSide = 1 << 24;
+    constexpr int kMostTileSide = 1 << 16;
+    static const bool is_done = [] {
+        Imf::Header::setMaxImageSize(kMostSide, kMostSide);
+        Imf::Header::setMaxTileSize(kMostTileSide, kMostTileSide);
+        return true;
+    }();
+    static_cast<void>(is_done);
 }
 
 /// Clamps to the range of half floats; NaN stays NaN.
-void limit_to_half(std::array<std::vector<float>, 3>& planes) {
+half to_half(float value) {
     constexpr float kLargestHalf = 65504.0f;
-    for (std::vector<float>& plane : planes) {
-        for (float& value : plane) {
-            if (value > kLargestHalf) {
-                value = kLargestHalf;
-            }
-        }
-    }
+    return half(value > kLargestHalf ? kLargestHalf : value);
 }
 
-struct HeaderOwner {
-    EXRHeader header;
-    HeaderOwner() { InitEXRHeader(&header); }
-    ~HeaderOwner() { FreeEXRHeader(&header); }
-    HeaderOwner(const HeaderOwner&) = delete;
-    HeaderOwner& operator=(const HeaderOwner&) = delete;
+template <class Number>
+std::string encode(const Imf::Header& header, const LinearImage& image, Imf::PixelType type,
+                   Number (*convert)(float)) {
+    std::vector<Number> numbers;
+    numbers.reserve(3 * image.pixels.size());
+    for (const glm::vec3& pixel : image.pixels)
+        for (int c = 0; c < 3; ++c) numbers.push_back(convert(pixel[c]));
+    Imf::FrameBuffer buffer;
+    for (std::size_t c = 0; c < 3; ++c)
+        buffer.insert(kColors[c],
+                      Imf::Slice::Make(type, numbers.data() + c, header.dataWindow(), 3 * sizeof(Number)));
+    Imf::StdOSStream stream;
+    {
+        Imf::OutputFile file(stream, header, kThreads);
+        file.setFrameBuffer(buffer);
+        file.writePixels(image.height);
+    }
+    return stream.str();
+}
+
+ExrPart part_of(const Imf::Header& header) {
+    ExrPart part{.name = header.hasName() ? header.name() : "",
+                 .is_deep = header.hasType() && Imf::isDeepData(header.type()),
+                 .channels = {}};
+    const Imf::ChannelList& channels = header.channels();
+    for (auto channel = channels.begin(); channel != channels.end(); ++channel)
+        part.channels.push_back(
+            {.name = channel.name(),
+             .is_float = channel.channel().type != Imf::UINT,
+             .is_subsampled = channel.channel().xSampling != 1 || channel.channel().ySampling != 1});
+    return part;
+}
+
+bool has_other_primaries(const Imf::Header& header) {
+    if (!Imf::hasChromaticities(header)) return false;
+    constexpr float kSame = 0.01f;
+    const Imf::Chromaticities& file = Imf::chromaticities(header);
+    const Imf::Chromaticities standard;
+    const auto differ = [](const Imath::V2f& a, const Imath::V2f& b) { return !((a - b).length() < kSame); };
+    return differ(file.red, standard.red) || differ(file.green, standard.green) || differ(file.blue, standard.blue) ||
+           differ(file.white, standard.white);
+}
+
+class ExrDecoder {
+public:
+    ExrDecoder(const std::string& bytes, const LinearSettings& settings) : settings_(settings) { stream_.str(bytes); }
+
+    LinearImage run() {
+        Imf::MultiPartInputFile file(stream_, kThreads);
+        std::vector<ExrPart> parts;
+        for (int i = 0; i < file.parts(); ++i) parts.push_back(part_of(file.header(i)));
+        const ExrLayer layer = choose_exr_layer(parts, settings_.path);
+        const Imf::Header& header = file.header(layer.part);
+        require_size(header);
+        tell(header, layer);
+        read_metadata(header);
+        return layer.is_luminance_chroma ? read_luminance_chroma(header, layer) : read_colors(file, layer);
+    }
+
+private:
+    void require_size(const Imf::Header& header) {
+        const Imath::Box2i& window = header.dataWindow();
+        const auto extent = [&](int axis) { return static_cast<long long>(window.max[axis]) - window.min[axis] + 1; };
+        settings_.require_size(settings_.path, extent(0), extent(1));
+        // Tiles are read by rows of them.
+        if (header.hasTileDescription()) require_plausible(settings_.path, extent(0), header.tileDescription().ySize);
+    }
+
+    void note(const std::string& what) const {
+        if (settings_.warnings != nullptr)
+            settings_.warnings->push_back(fmt::format("{}: {}", settings_.path.string(), what));
+    }
+
+    void tell(const Imf::Header& header, const ExrLayer& layer) const {
+        if (!layer.note.empty()) note(layer.note);
+        if (header.dataWindow() != header.displayWindow())
+            note("its data window, not its display window, is the image");
+        if (has_other_primaries(header)) note("its primaries are not those of sRGB: colors count as if they were");
+    }
+
+    void read_metadata(const Imf::Header& header) const {
+        if (settings_.metadata == nullptr) return;
+        for (auto attribute = header.begin(); attribute != header.end(); ++attribute) {
+            const auto* const text = dynamic_cast<const Imf::StringAttribute*>(&attribute.attribute());
+            const std::string name = attribute.name();
+            // The library adds the kind of the part.
+            if (text != nullptr && name != "type") settings_.metadata->emplace_back(name, text->value());
+        }
+    }
+
+    /// Calls `read_rows` for some rows after another, which are those of the window from `first` to `last`.
+    template <class Pixel, class ReadRows, class Convert>
+    static LinearImage read_in_blocks(const Imath::Box2i& window, ReadRows&& read_rows, Convert&& convert) {
+        LinearImage image{
+            .width = window.max.x - window.min.x + 1, .height = window.max.y - window.min.y + 1, .pixels = {}};
+        const auto width = static_cast<std::size_t>(image.width);
+        image.pixels.reserve(width * static_cast<std::size_t>(image.height));
+        std::vector<Pixel> rows(width * static_cast<std::size_t>(std::min(kRowsAtOnce, image.height)));
+        for (int done = 0; done < image.height; done += kRowsAtOnce) {
+            const int count = std::min(kRowsAtOnce, image.height - done);
+            const Imath::Box2i block({window.min.x, window.min.y + done},
+                                     {window.max.x, window.min.y + done + count - 1});
+            read_rows(block, rows.data());
+            const auto end = rows.begin() + static_cast<std::ptrdiff_t>(width) * count;
+            std::transform(rows.begin(), end, std::back_inserter(image.pixels), convert);
+        }
+        return image;
+    }
+
+    static LinearImage read_colors(Imf::MultiPartInputFile& file, const ExrLayer& layer) {
+        Imf::InputPart part(file, layer.part);
+        const auto read_rows = [&](const Imath::Box2i& block, glm::vec3* rows) {
+            Imf::FrameBuffer buffer;
+            // Gray has one channel, which serves all three colors: a buffer has each channel once.
+            for (std::size_t c = 0; c < 3; ++c)
+                buffer.insert(layer.channels[c],
+                              Imf::Slice::Make(Imf::FLOAT, &rows->x + c, block, sizeof(glm::vec3)));
+            part.setFrameBuffer(buffer);
+            part.readPixels(block.min.y, block.max.y);
+        };
+        const bool is_gray = layer.channels[0] == layer.channels[2];
+        return read_in_blocks<glm::vec3>(part.header().dataWindow(), read_rows, [&](const glm::vec3& pixel) {
+            return is_gray ? glm::vec3(pixel.z) : pixel;
+        });
+    }
+
+    /// The library converts them, in half precision.
+    LinearImage read_luminance_chroma(const Imf::Header& header, const ExrLayer& layer) {
+        if (layer.part != 0) fail_image(settings_.path, "expected luminance and chroma in the first part");
+        stream_.seekg(0);
+        Imf::RgbaInputFile file(stream_, layer.name, kThreads);
+        const auto read_rows = [&](const Imath::Box2i& block, Imf::Rgba* rows) {
+            const auto width = static_cast<std::uintptr_t>(block.max.x - block.min.x + 1);
+            // The library adds the place in the window.
+            const std::uintptr_t origin =
+                static_cast<std::uintptr_t>(block.min.x) + static_cast<std::uintptr_t>(block.min.y) * width;
+            file.setFrameBuffer(
+                reinterpret_cast<Imf::Rgba*>(reinterpret_cast<std::uintptr_t>(rows) - origin * sizeof(Imf::Rgba)), 1,
+                width);
+            file.readPixels(block.min.y, block.max.y);
+        };
+        return read_in_blocks<Imf::Rgba>(header.dataWindow(), read_rows,
+                                         [](const Imf::Rgba& pixel) { return glm::vec3(pixel.r, pixel.g, pixel.b); });
+    }
+
+    const LinearSettings& settings_;
+    Imf::StdISStream stream_;
 };
-
-struct ImageOwner {
-    EXRImage image;
-    bool loaded = false;
-    ImageOwner() { InitEXRImage(&image); }
-    ~ImageOwner() {
-        if (loaded) {  // after a failure the library has already freed the pixels
-            FreeEXRImage(&image);
-        }
-    }
-    ImageOwner(const ImageOwner&) = delete;
-    ImageOwner& operator=(const ImageOwner&) = delete;
-};
-
-/// Value of an attribute of type string. The library returns a single null character for an empty one.
-std::string text_of(const EXRAttribute& attribute) {
-    const std::string text(reinterpret_cast<const char*>(attribute.value), static_cast<std::size_t>(attribute.size));
-    return text.substr(0, text.find('\0'));
-}
-
-void read_header(const std::filesystem::path& path, const std::string& bytes, EXRHeader& header) {
-    const auto* const data = reinterpret_cast<const unsigned char*>(bytes.data());
-    EXRVersion version{};
-    if (ParseEXRVersionFromMemory(&version, data, bytes.size()) != TINYEXR_SUCCESS) {
-        fail_image(path, "not an EXR file");
-    }
-    if (version.tiled != 0 || version.multipart != 0 || version.non_image != 0) {
-        fail_image(path, "expected an EXR file of scanlines with one part");
-    }
-    const char* message = nullptr;
-    if (ParseEXRHeaderFromMemory(&header, &version, data, bytes.size(), &message) != TINYEXR_SUCCESS) {
-        fail_image(path, "EXR header: " + take_message(message));
-    }
-    const EXRBox2i& window = header.data_window;
-    require_plausible(path, static_cast<long long>(window.max_x) - window.min_x + 1,
-                      static_cast<long long>(window.max_y) - window.min_y + 1);
-    for (int c = 0; c < header.num_channels; ++c) {
-        if (header.channels[c].x_sampling != 1 || header.channels[c].y_sampling != 1) {
-            fail_image(path, "subsampled channels are not supported");
-        }
-        // Only half is converted; the other types stay as in the file.
-        if (header.pixel_types[c] == TINYEXR_PIXELTYPE_HALF) {
-            header.requested_pixel_types[c] = TINYEXR_PIXELTYPE_FLOAT;
-        }
-    }
-}
-
-int channel_index(const std::filesystem::path& path, const EXRHeader& header, const char* name) {
-    for (int c = 0; c < header.num_channels; ++c) {
-        if (std::strcmp(header.channels[c].name, name) == 0) {
-            if (header.requested_pixel_types[c] != TINYEXR_PIXELTYPE_FLOAT) {
-                fail_image(path, fmt::format("channel {}: expected floats", name));
-            }
-            return c;
-        }
-    }
-    fail_image(path, fmt::format("expected the channels R, G and B, {} is missing", name));
-}
 
 }  // namespace
 
 void write_exr(const std::filesystem::path& path, const LinearImage& image, const ImageMetadata& metadata,
                ExrNumbers numbers) {
     require_complete(path, image.width, image.height, image.pixels.size(), 1);
-    std::array<std::vector<float>, 3> planes = to_planes(image);
-    if (numbers == ExrNumbers::Half) {
-        limit_to_half(planes);
+    const bool is_half = numbers == ExrNumbers::Half;
+    std::string bytes;
+    try {
+        Imf::Header header(image.width, image.height);
+        header.compression() = Imf::ZIP_COMPRESSION;
+        for (const char* name : kColors)
+            header.channels().insert(name, Imf::Channel(is_half ? Imf::HALF : Imf::FLOAT));
+        for (const auto& [name, value] : metadata) header.insert(name, Imf::StringAttribute(value));
+        bytes = is_half ? encode<half>(header, image, Imf::HALF, to_half)
+                        : encode<float>(header, image, Imf::FLOAT, [](float value) { return value; });
+    } catch (const Iex::BaseExc& error) {
+        throw Error(ErrorKind::Runtime, fmt::format("{}: cannot be written: {}", path.string(), error.what()));
     }
-    std::array<unsigned char*, 3> plane_data{};
-    std::array<EXRChannelInfo, 3> channels{};
-    std::array<int, 3> types{};
-    std::array<int, 3> stored_types{};
-    for (std::size_t c = 0; c < 3; ++c) {
-        plane_data[c] = reinterpret_cast<unsigned char*>(planes[c].data());
-        copy_name(channels[c].name, kChannels[c]);
-        types[c] = TINYEXR_PIXELTYPE_FLOAT;
-        stored_types[c] = numbers == ExrNumbers::Half ? TINYEXR_PIXELTYPE_HALF : TINYEXR_PIXELTYPE_FLOAT;
-    }
-    std::vector<EXRAttribute> attributes = to_attributes(metadata);
-
-    EXRImage exr_image;
-    InitEXRImage(&exr_image);
-    exr_image.images = plane_data.data();
-    exr_image.width = image.width;
-    exr_image.height = image.height;
-    exr_image.num_channels = 3;
-
-    EXRHeader header;  // not a HeaderOwner: it points to local objects
-    InitEXRHeader(&header);
-    header.num_channels = 3;
-    header.channels = channels.data();
-    header.pixel_types = types.data();
-    header.requested_pixel_types = stored_types.data();
-    header.compression_type = TINYEXR_COMPRESSIONTYPE_ZIP;
-    header.num_custom_attributes = static_cast<int>(attributes.size());
-    header.custom_attributes = attributes.data();
-
-    unsigned char* memory = nullptr;
-    const char* message = nullptr;
-    const std::size_t size = SaveEXRImageToMemory(&exr_image, &header, &memory, &message);
-    const std::unique_ptr<unsigned char, decltype(&std::free)> owner(memory, &std::free);
-    if (size == 0) {
-        throw Error(ErrorKind::Runtime,
-                    fmt::format("{}: cannot be written: {}", path.string(), take_message(message)));
-    }
-    write_file_atomic(path, {reinterpret_cast<const char*>(memory), size});
+    write_file_atomic(path, bytes);
 }
 
-LinearImage read_exr(const std::filesystem::path& path, ImageMetadata* metadata) {
-    const std::string bytes = read_file(path);
-    HeaderOwner owner;
-    EXRHeader& header = owner.header;
-    read_header(path, bytes, header);
-    std::array<std::size_t, 3> channel{};
-    for (std::size_t c = 0; c < 3; ++c) {
-        channel[c] = static_cast<std::size_t>(channel_index(path, header, kChannels[2 - c]));
+LinearImage decode_exr(const std::string& bytes, const LinearSettings& settings) {
+    if (!bytes.starts_with("\x76\x2f\x31\x01")) fail_image(settings.path, "not an EXR file");
+    limit_library();
+    try {
+        return ExrDecoder(bytes, settings).run();
+    } catch (const Iex::BaseExc& error) {
+        fail_image(settings.path, fmt::format("EXR: {}", error.what()));
     }
-    ImageOwner image;
-    image.image.num_channels = header.num_channels;  // without it the library leaks them on failure
-    const char* message = nullptr;
-    const auto* const data = reinterpret_cast<const unsigned char*>(bytes.data());
-    image.loaded = LoadEXRImageFromMemory(&image.image, &header, data, bytes.size(), &message) == TINYEXR_SUCCESS;
-    if (!image.loaded) {
-        fail_image(path, "EXR pixels: " + take_message(message));
-    }
-    LinearImage result{.width = image.image.width, .height = image.image.height, .pixels = {}};
-    result.pixels.resize(static_cast<std::size_t>(result.width) * static_cast<std::size_t>(result.height));
-    for (std::size_t c = 0; c < 3; ++c) {
-        const auto* const plane = reinterpret_cast<const float*>(image.image.images[channel[c]]);
-        for (std::size_t i = 0; i < result.pixels.size(); ++i) {
-            result.pixels[i][static_cast<int>(c)] = plane[i];
-        }
-    }
-    for (int i = 0; metadata != nullptr && i < header.num_custom_attributes; ++i) {
-        const EXRAttribute& attribute = header.custom_attributes[i];
-        if (std::strcmp(attribute.type, "string") == 0) {
-            metadata->emplace_back(attribute.name, text_of(attribute));
-        }
-    }
-    return result;
 }
 
 }  // namespace pl

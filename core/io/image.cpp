@@ -24,19 +24,32 @@ ImageKind image_kind(const std::filesystem::path& path) {
                             path.string(), suffix.empty() ? "none" : suffix));
 }
 
-LinearImage read_linear(const std::filesystem::path& path, ImageMetadata* metadata) {
-    const std::string suffix = suffix_of(path);
-    if (suffix == ".pfm") {
-        return read_pfm(path);
+LinearImage decode_linear(const std::string& bytes, const LinearSettings& settings) {
+    const ImageKind kind = image_kind_of(bytes, settings.path);
+    switch (kind) {
+    case ImageKind::Exr: return decode_exr(bytes, settings);
+    case ImageKind::Pfm: return decode_pfm(bytes, settings);
+    case ImageKind::Hdr: return decode_hdr(bytes, settings);
+    case ImageKind::Png:
+    case ImageKind::Jpeg:
+    case ImageKind::Tga:
+    case ImageKind::Bmp: break;
     }
-    if (suffix == ".exr") {
-        return read_exr(path, metadata);
-    }
-    fail_image(path, fmt::format("expected a linear picture, .exr or .pfm, got {}",
-                                 suffix == ".png" ? "an 8-bit one: it is tone mapped and clipped"
-                                 : suffix.empty() ? "a file without suffix"
-                                                  : suffix));
+    fail_image(settings.path, fmt::format("expected a linear picture (exr, pfm or hdr), got an 8-bit one ({}): it is "
+                                          "tone mapped and clipped",
+                                          name_of(kind)));
 }
+
+LinearImage read_linear(const std::filesystem::path& path, ImageMetadata* metadata,
+                        std::vector<std::string>* warnings) {
+    return decode_linear(read_file(path), {.path = path, .metadata = metadata, .warnings = warnings});
+}
+
+LinearImage read_exr(const std::filesystem::path& path, ImageMetadata* metadata) {
+    return decode_exr(read_file(path), {.path = path, .metadata = metadata});
+}
+
+LinearImage read_pfm(const std::filesystem::path& path) { return decode_pfm(read_file(path), {.path = path}); }
 
 std::string text_of(const ImageMetadata& metadata, const std::string& name) {
     for (const auto& [key, value] : metadata) {

@@ -1,4 +1,4 @@
-// Picture files: EXR and PFM hold linear floats, PNG holds 8-bit display values.
+// Picture files: EXR, PFM and HDR hold linear values, PNG holds 8-bit display values.
 #pragma once
 
 #include <cstdint>
@@ -9,6 +9,8 @@
 #include <vector>
 
 #include <glm/glm.hpp>
+
+#include "core/io/image_checks.h"
 
 namespace pl {
 
@@ -29,20 +31,34 @@ struct ByteImage {
 /// Names and values stored with a picture, such as its render settings.
 using ImageMetadata = std::vector<std::pair<std::string, std::string>>;
 
-enum class ImageKind { Exr, Pfm, Png };
+enum class ImageKind { Exr, Pfm, Png, Hdr, Jpeg, Tga, Bmp };
 
-/// "exr", "pfm" or "png": also the extension.
+/// "exr", "pfm", "png" and so on: also the extension.
 constexpr std::string_view name_of(ImageKind kind) {
     switch (kind) {
     case ImageKind::Exr: return "exr";
     case ImageKind::Pfm: return "pfm";
     case ImageKind::Png: return "png";
+    case ImageKind::Hdr: return "hdr";
+    case ImageKind::Jpeg: return "jpg";
+    case ImageKind::Tga: return "tga";
+    case ImageKind::Bmp: return "bmp";
     }
     return "";
 }
 
-/// Kind by file name extension, case-insensitive. Throws Error(Usage) that lists the known ones.
+/// Whether files of this kind hold linear values.
+constexpr bool is_linear(ImageKind kind) {
+    return kind == ImageKind::Exr || kind == ImageKind::Pfm || kind == ImageKind::Hdr;
+}
+
+/// Kind of a picture that is written, by its file name extension, case-insensitive: EXR, PFM or PNG. Throws
+/// Error(Usage) that lists these.
 ImageKind image_kind(const std::filesystem::path& path);
+
+/// Kind of an image file by its bytes, whatever its name. `path` is for messages. Throws Error(Input) that says what
+/// the file is instead, if that is known.
+ImageKind image_kind_of(std::string_view bytes, const std::filesystem::path& path);
 
 // Writers are atomic (write_file_atomic). They throw Error(Runtime) with path and reason, also if the number of
 // pixels is 0 or does not match width and height.
@@ -52,7 +68,7 @@ enum class ExrNumbers {
     Half,   ///< 16 bits, 11 of them significant; clamped to 65504
 };
 
-/// EXR, losslessly compressed. Metadata become attributes of type string (at most 100; names up to 255 bytes).
+/// EXR, losslessly compressed. Metadata become attributes of type string; names are cut to 255 bytes.
 void write_exr(const std::filesystem::path& path, const LinearImage& image, const ImageMetadata& metadata = {},
                ExrNumbers numbers = ExrNumbers::Float);
 
@@ -68,14 +84,38 @@ std::string text_of(const ImageMetadata& metadata, const std::string& name);
 // Readers throw Error(Input) if the file is missing, of another kind, or truncated. `metadata` receives the stored
 // names and values.
 
-/// EXR scanline files with channels R, G and B of any pixel type.
+/// How the bytes of a linear picture are read.
+struct LinearSettings {
+    std::filesystem::path path{};  ///< for messages
+    /// Throws Error(Input) for a size that is not wanted, before pixels are read.
+    void (*require_size)(const std::filesystem::path& path, long long width, long long height) = require_plausible;
+    ImageMetadata* metadata = nullptr;
+    std::vector<std::string>* warnings = nullptr;  ///< receives what the reader chose or left out
+};
+
+/// EXR, PFM or Radiance HDR, by the bytes. 8-bit pictures are refused: tone-mapped and clipped values cannot be
+/// measured.
+LinearImage decode_linear(const std::string& bytes, const LinearSettings& settings);
+
+/// The layer of an EXR file that choose_exr_layer() names, without subsampled channels but those of luminance and
+/// chroma. The image is the data window.   [OpenEXR, "Technical Introduction"]
+LinearImage decode_exr(const std::string& bytes, const LinearSettings& settings);
+
+/// PFM of colors ("PF") or gray ("Pf"), of either byte order.
+LinearImage decode_pfm(std::string_view bytes, const LinearSettings& settings);
+
+/// Radiance HDR with either kind of run lengths and in any orientation.   [Ward, "The RADIANCE Picture File Format"]
+LinearImage decode_hdr(std::string_view bytes, const LinearSettings& settings);
+
+/// decode_linear() of a file.
+LinearImage read_linear(const std::filesystem::path& path, ImageMetadata* metadata = nullptr,
+                        std::vector<std::string>* warnings = nullptr);
+
+/// decode_exr() of a file of this program.
 LinearImage read_exr(const std::filesystem::path& path, ImageMetadata* metadata = nullptr);
 
-/// PFM color files ("PF") of either byte order.
+/// decode_pfm() of a file.
 LinearImage read_pfm(const std::filesystem::path& path);
-
-/// EXR or PFM, by file name extension. 8-bit pictures are refused: tone-mapped and clipped values cannot be measured.
-LinearImage read_linear(const std::filesystem::path& path, ImageMetadata* metadata = nullptr);
 
 /// The bytes of a PNG file. Throws Error(Runtime) if the encoder fails.
 std::string encode_png8(const ByteImage& image);

@@ -55,10 +55,10 @@ bool bmp_ends_early(std::string_view file, std::size_t width, std::size_t height
 
 }  // namespace
 
-bool ends_early(const std::string& suffix, std::string_view file, std::size_t width, std::size_t height) {
-    if (suffix == ".jpg" || suffix == ".jpeg") return jpeg_ends_early(file);
-    if (suffix == ".tga") return tga_ends_early(file, width * height);
-    if (suffix == ".bmp") return bmp_ends_early(file, width, height);
+bool ends_early(ImageKind kind, std::string_view file, std::size_t width, std::size_t height) {
+    if (kind == ImageKind::Jpeg) return jpeg_ends_early(file);
+    if (kind == ImageKind::Tga) return tga_ends_early(file, width * height);
+    if (kind == ImageKind::Bmp) return bmp_ends_early(file, width, height);
     return false;
 }
 

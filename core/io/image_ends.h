@@ -2,13 +2,14 @@
 #pragma once
 
 #include <cstddef>
-#include <string>
 #include <string_view>
+
+#include "core/io/image.h"
 
 namespace pl {
 
-/// Whether a JPEG, TGA or BMP file (by its suffix, such as ".tga") is too short for an image of this size. False for
+/// Whether a JPEG, TGA or BMP file is too short for an image of this size. False for
 /// other kinds, whose decoders detect it.   [ITU-T T.81, B.1; Truevision TGA 2.0, sections 2 to 4]
-bool ends_early(const std::string& suffix, std::string_view file, std::size_t width, std::size_t height);
+bool ends_early(ImageKind kind, std::string_view file, std::size_t width, std::size_t height);
 
 }  // namespace pl

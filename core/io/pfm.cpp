@@ -23,6 +23,7 @@ namespace {
 struct Header {
     int width = 0;
     int height = 0;
+    int channels = 3;
     bool big_endian = false;
     std::size_t size = 0;  ///< bytes up to the first float
 };
@@ -36,32 +37,31 @@ std::string_view take_word(std::string_view bytes, std::size_t& at) {
     return bytes.substr(first, end - first);
 }
 
-Header read_header(const std::filesystem::path& path, std::string_view bytes) {
+Header read_header(const LinearSettings& settings, std::string_view bytes) {
+    const std::filesystem::path& path = settings.path;
     Header header;
-    if (take_word(bytes, header.size) != "PF") {
-        fail_image(path, "not a color PFM file: expected 'PF' at its start");
+    const std::string_view kind = take_word(bytes, header.size);
+    if (kind != "PF" && kind != "Pf") {
+        fail_image(path, "not a PFM file: expected 'PF' or 'Pf' at its start");
     }
+    header.channels = kind == "PF" ? 3 : 1;
     const std::optional<std::int64_t> width = parse_integer(take_word(bytes, header.size));
     const std::optional<std::int64_t> height = parse_integer(take_word(bytes, header.size));
     const std::optional<double> scale = parse_number(take_word(bytes, header.size));
     if (!width || !height || !scale || *scale == 0.0) {
         fail_image(path, "PFM header: expected width, height and a scale other than 0");
     }
-    require_plausible(path, *width, *height);
+    settings.require_size(path, *width, *height);
     header.width = static_cast<int>(*width);
     header.height = static_cast<int>(*height);
     header.big_endian = *scale > 0.0;
     return header;
 }
 
-std::size_t row_bytes(int width) { return static_cast<std::size_t>(width) * sizeof(glm::vec3); }
-
-void swap_bytes(glm::vec3& pixel) {
-    for (int c = 0; c < 3; ++c) {
-        auto bytes = std::bit_cast<std::array<char, sizeof(float)>>(pixel[c]);
-        std::reverse(bytes.begin(), bytes.end());
-        pixel[c] = std::bit_cast<float>(bytes);
-    }
+float swap_bytes(float number) {
+    auto bytes = std::bit_cast<std::array<char, sizeof(float)>>(number);
+    std::reverse(bytes.begin(), bytes.end());
+    return std::bit_cast<float>(bytes);
 }
 
 }  // namespace
@@ -70,7 +70,7 @@ void write_pfm(const std::filesystem::path& path, const LinearImage& image) {
     require_complete(path, image.width, image.height, image.pixels.size(), 1);
     std::string bytes = fmt::format("PF\n{} {}\n-1.0\n", image.width, image.height);
     const std::size_t start = bytes.size();
-    const std::size_t row = row_bytes(image.width);
+    const std::size_t row = static_cast<std::size_t>(image.width) * sizeof(glm::vec3);
     const auto rows = static_cast<std::size_t>(image.height);
     bytes.resize(start + rows * row);
     for (std::size_t y = 0; y < rows; ++y) {
@@ -80,23 +80,27 @@ void write_pfm(const std::filesystem::path& path, const LinearImage& image) {
     write_file_atomic(path, bytes);
 }
 
-LinearImage read_pfm(const std::filesystem::path& path) {
-    const std::string bytes = read_file(path);
-    const Header header = read_header(path, bytes);
-    const std::size_t row = row_bytes(header.width);
-    const auto rows = static_cast<std::size_t>(header.height);
-    if (bytes.size() - header.size != rows * row) {
-        fail_image(path, fmt::format("a PFM of {}x{} has {} bytes of pixels, got {}", header.width, header.height,
-                                     rows * row, bytes.size() - header.size));
+LinearImage decode_pfm(std::string_view bytes, const LinearSettings& settings) {
+    const Header header = read_header(settings, bytes);
+    const auto width = static_cast<std::size_t>(header.width);
+    const auto height = static_cast<std::size_t>(header.height);
+    const std::size_t row = width * static_cast<std::size_t>(header.channels) * sizeof(float);
+    if (bytes.size() - header.size != height * row) {
+        fail_image(settings.path, fmt::format("a PFM of {}x{} has {} bytes of pixels, got {}", width, height,
+                                              height * row, bytes.size() - header.size));
     }
     LinearImage image{.width = header.width, .height = header.height, .pixels = {}};
-    image.pixels.resize(rows * static_cast<std::size_t>(header.width));
-    for (std::size_t y = 0; y < rows; ++y) {
-        glm::vec3* const to = image.pixels.data() + (rows - 1 - y) * static_cast<std::size_t>(header.width);
-        std::memcpy(to, bytes.data() + header.size + y * row, row);
-    }
-    if (header.big_endian) {
-        std::for_each(image.pixels.begin(), image.pixels.end(), swap_bytes);
+    image.pixels.reserve(width * height);
+    for (std::size_t y = height; y-- > 0;) {
+        const char* from = bytes.data() + header.size + y * row;
+        for (std::size_t x = 0; x < width; ++x) {
+            glm::vec3 pixel;
+            for (int c = 0; c < header.channels; ++c, from += sizeof(float)) {
+                std::memcpy(&pixel[c], from, sizeof(float));
+                if (header.big_endian) pixel[c] = swap_bytes(pixel[c]);
+            }
+            image.pixels.push_back(header.channels == 1 ? glm::vec3(pixel.x) : pixel);
+        }
     }
     return image;
 }

@@ -102,7 +102,7 @@ void read_vertex_colors(const JsonDocument& file, SceneDescription& scene) {
     if (path.empty()) {
         file.fail(pointer, fmt::format("expected a file in the folder of the scene, got '{}'", *name));
     }
-    scene.vertex_colors = read_linear(path).pixels;
+    scene.vertex_colors = read_linear(path, nullptr, &scene.warnings).pixels;
     if (scene.vertex_colors.size() < scene.positions.size()) {
         file.fail(pointer, fmt::format("expected an image with a texel for each of {} vertices, got {}",
                                        scene.positions.size(), scene.vertex_colors.size()));

@@ -1,4 +1,4 @@
-// Loader of textures and environment maps: PNG, JPEG, TGA, BMP (8 and 16 bits), Radiance HDR, PFM, EXR.
+// Textures and environment maps from image files of any kind that decode_image() knows.
 #pragma once
 
 #include <filesystem>
@@ -10,20 +10,16 @@
 
 namespace pl {
 
-/// Largest width or height, and largest number of texels, of a texture.
-inline constexpr std::uint32_t kMostTextureSide = 16384;
-inline constexpr std::size_t kMostTexels = std::size_t{1} << 26;
-
 /// Linear value of an sRGB value, both in [0, 1]. [IEC 61966-2-1]
 float decode_srgb(float code);
 
-/// Reads an image file, its kind by the suffix. LDR colors are decoded from sRGB [IEC 61966-2-1]; numbers and
+/// Reads an image file. LDR colors are decoded from sRGB [IEC 61966-2-1]; numbers and
 /// opacities are linear. Texels of HDR files that are NaN, infinite or negative become 0, with one counted warning.
 /// Throws Error(Input) for a file that is missing, of unknown kind, corrupt, or too large.
 TextureDescription read_texture(const std::filesystem::path& path, TextureContent content, bool repeats,
                                 std::vector<std::string>& warnings);
 
-/// As read_texture() for the bytes of a PNG or JPEG file; `source` is for messages, and becomes that of the texture.
+/// As read_texture() for the bytes of a file; `source` is for messages, and becomes that of the texture.
 TextureDescription decode_texture(const std::string& bytes, const std::filesystem::path& source,
                                   TextureContent content, bool repeats, std::vector<std::string>& warnings);
 

@@ -155,7 +155,7 @@ struct PunctualLightDescription {
     /// Radiant intensity, W/sr, of a spot on its axis; directional: irradiance of a surface that faces the light, W/m^2.
     glm::vec3 intensity{0.0f};
     float inner_deg = 0.0f;   ///< half angle of the cone in which a spot has its full intensity
-    float outer_deg = 45.0f;  ///< of the one outside of which it has none; above the inner one
+    float outer_deg = 45.0f;  ///< of the one outside of which it has none; at least the inner one, above 0
     SpotFalloff falloff = SpotFalloff::Cosine;
 
     friend bool operator==(const PunctualLightDescription&, const PunctualLightDescription&) = default;

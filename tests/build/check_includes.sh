@@ -92,7 +92,7 @@ omp.h:             cpu
 cuda*:             cuda
 mpi.h:             mpi
 tiny_obj_loader.h: core/io
-tinyexr.h:         core/io
+Imf*:              core/io/exr.cpp
 stb_*:             core/io
 '
 

@@ -1,6 +1,7 @@
 #include "core/io/gltf/gltf_file.h"
 
-#include <algorithm>
+#include <array>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -16,9 +17,16 @@ namespace {
 
 constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 40;
 
-/// Extensions without which geometry or buffers cannot be read.
-constexpr std::array<std::string_view, 3> kUnreadable = {"KHR_draco_mesh_compression", "EXT_meshopt_compression",
-                                                         "KHR_meshopt_compression"};
+/// Extensions without which geometry or buffers cannot be read, and the names of what compresses them.
+constexpr std::array<std::pair<const char*, const char*>, 3> kCompressions = {
+    {{"KHR_draco_mesh_compression", "Draco"},
+     {"EXT_meshopt_compression", "meshopt"},
+     {"KHR_meshopt_compression", "meshopt"}}};
+
+std::string compressed_by(const std::pair<const char*, const char*>& compression) {
+    return fmt::format("expected meshes without compression, got meshes compressed by {} ({})", compression.second,
+                       compression.first);
+}
 
 void require_version(const JsonDocument& json) {
     const std::string version = json.text("/asset/version").value_or("none");
@@ -30,8 +38,8 @@ void require_readable(const JsonDocument& json) {
     for (std::size_t i = 0; i < json.array_size("/extensionsRequired"); ++i) {
         const std::string pointer = fmt::format("/extensionsRequired/{}", i);
         const std::string name = json.text(pointer).value_or("");
-        if (std::find(kUnreadable.begin(), kUnreadable.end(), name) != kUnreadable.end())
-            json.fail(pointer, fmt::format("expected meshes without compression, got {}", in_quotes(name)));
+        for (const auto& compression : kCompressions)
+            if (name == compression.first) json.fail(pointer, compressed_by(compression));
     }
 }
 
@@ -80,9 +88,18 @@ std::string GltfFile::name_of(const std::string& pointer, const char* kind, std:
     return name.empty() ? fmt::format("{} {}", kind, number) : name;
 }
 
+void GltfFile::refuse_compressed(const std::string& at) const {
+    for (const auto& compression : kCompressions) {
+        const std::string pointer = fmt::format("{}/extensions/{}", at, compression.first);
+        if (json_.has(pointer)) fail(pointer, compressed_by(compression));
+    }
+}
+
 std::string_view GltfFile::view_bytes(std::uint32_t view) {
     const std::string at = fmt::format("/bufferViews/{}", view);
-    const std::string_view buffer = buffer_bytes(required_index(at + "/buffer", "buffers"));
+    const std::uint32_t number = required_index(at + "/buffer", "buffers");
+    if (!has_bytes(number)) refuse_compressed(at);
+    const std::string_view buffer = buffer_bytes(number);
     const std::uint64_t offset = whole(at + "/byteOffset", 0, 0, kMostBytes);
     const std::uint64_t length = whole(at + "/byteLength", 0, 1, kMostBytes);
     if (offset > buffer.size() || length > buffer.size() - offset) {
@@ -102,6 +119,10 @@ std::size_t GltfFile::view_stride(std::uint32_t view) const {
 std::string_view GltfFile::buffer_bytes(std::uint32_t buffer) {
     const auto known = buffers_.find(buffer);
     return known != buffers_.end() ? known->second : buffers_.emplace(buffer, load_buffer(buffer)).first->second;
+}
+
+bool GltfFile::has_bytes(std::uint32_t buffer) const {
+    return json_.has(fmt::format("/buffers/{}/uri", buffer)) || (buffer == 0 && binary_);
 }
 
 std::string GltfFile::load_buffer(std::uint32_t buffer) {

@@ -41,6 +41,8 @@ public:
     /// A member `name` of the object at `pointer`, else `kind` and the number of the object.
     std::string name_of(const std::string& pointer, const char* kind, std::uint32_t number) const;
 
+    /// Throws if the object at the pointer `at` has an extension of compressed meshes, which are not read.
+    void refuse_compressed(const std::string& at) const;
     /// Bytes of a buffer view. Loads its buffer at the first use; valid as long as the file.
     std::string_view view_bytes(std::uint32_t view);
     /// Distance of elements that the view sets, 0 if it sets none.
@@ -54,6 +56,7 @@ public:
 private:
     GltfFile(const std::filesystem::path& path, GltfParts parts);
     std::string_view buffer_bytes(std::uint32_t buffer);
+    bool has_bytes(std::uint32_t buffer) const;
     std::string load_buffer(std::uint32_t buffer);
 
     std::filesystem::path path_;

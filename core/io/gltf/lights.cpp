@@ -1,5 +1,6 @@
 #include "core/io/gltf/lights.h"
 
+#include <algorithm>
 #include <optional>
 
 #include <fmt/format.h>
@@ -24,15 +25,17 @@ glm::vec3 intensity_of(GltfFile& file, const std::string& at) {
     return glm::vec3(tint * intensity / (is_of_blender ? kLumensPerWatt : 1.0));
 }
 
-void read_cones(GltfFile& file, const std::string& at, PunctualLightDescription& light) {
+/// False if the light has no cone. Cones that glTF does not allow have a meaning nevertheless: the falloff is one of the
+/// cosine, for any angle.
+bool read_cones(GltfFile& file, const std::string& at, PunctualLightDescription& light) {
     const float inner = file.json().number(at + "/spot/innerConeAngle").value_or(0.0f);
     const float outer = file.json().number(at + "/spot/outerConeAngle").value_or(glm::quarter_pi<float>());
-    if (!(inner >= 0.0f && inner < outer && outer <= glm::half_pi<float>()))
-        file.fail(at,
-                  fmt::format("expected 0 <= innerConeAngle < outerConeAngle <= pi/2, got {} and {}", inner, outer));
-    light.inner_deg = glm::degrees(inner);
-    light.outer_deg = glm::degrees(outer);
+    light.outer_deg = std::min(glm::degrees(outer), kMostSpotAngle);
+    light.inner_deg = std::clamp(glm::degrees(inner), 0.0f, std::max(light.outer_deg, 0.0f));
+    if (outer > glm::pi<float>() || !(inner >= 0.0f && inner <= outer))
+        file.note("cones of spots are moved to 0 <= innerConeAngle <= outerConeAngle <= pi", at);
     light.falloff = SpotFalloff::Cosine;
+    return light.outer_deg > 0.0f;
 }
 
 std::optional<PunctualKind> kind_of(const std::string& type) {
@@ -52,7 +55,8 @@ void add_light(GltfFile& file, const GltfNode& node, const std::string& at, Scen
     PunctualLightDescription light{.kind = *kind, .position = glm::vec3(node.to_world[3])};
     light.intensity = intensity_of(file, at);
     if (*kind != PunctualKind::Point) light.direction = glm::vec3(-glm::normalize(back));
-    if (*kind == PunctualKind::Spot) read_cones(file, at, light);
+    if (*kind == PunctualKind::Spot && !read_cones(file, at, light))
+        return file.note("spots without a cone are left out", at);
     if (*kind != PunctualKind::Directional && file.json().number(at + "/range"))
         file.note("ranges of lights are left out: light falls off by the square of the distance alone", at);
     scene.punctual_lights.push_back(light);

@@ -84,6 +84,7 @@ void GltfMeshes::read_attributes(GltfPrimitive& primitive) {
         file_.note("primitives without positions are left out", primitive.at);
         return;
     }
+    if (!file_.json().has(fmt::format("/accessors/{}/bufferView", *positions))) file_.refuse_compressed(primitive.at);
     count(primitive.at, accessor_count(file_, *positions));
     primitive.positions = as_vectors<glm::vec3>(read_floats(file_, *positions, "VEC3"));
     if (const auto normals = attribute(primitive, "NORMAL"))

@@ -243,7 +243,13 @@ private:
     }
 
     void read_mask() {
-        const float cutoff = number(at_ + "/alphaCutoff", kGltfHalf, 0.0f, 1.0f);
+        const std::string cutoff_at = at_ + "/alphaCutoff";
+        if (json_.number(cutoff_at).value_or(kGltfHalf) > 1.0f) {
+            note("surfaces with an alphaCutoff above 1 are cut away");  // [glTF 2.0, section 3.9.4]
+            surface_.is_hidden = true;
+            return;
+        }
+        const float cutoff = number(cutoff_at, kGltfHalf, 0.0f, 1.0f);
         const bool has_holes = cutoff > 0.0f && json_.has(base_at_);
         // Holes are where the texture's alpha is below one half.
         const float scale = has_holes ? alpha_ * kGltfHalf / cutoff : 1.0f;

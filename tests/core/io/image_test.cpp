@@ -42,7 +42,8 @@ bool same_bits(const LinearImage& a, const LinearImage& b) {
            std::memcmp(a.pixels.data(), b.pixels.data(), a.pixels.size() * sizeof(glm::vec3)) == 0;
 }
 
-const ImageMetadata kMetadata = {{"settings", "--method reinforcement --spp 64"}, {"partial", "true"}, {"empty", ""}};
+/// In the order of their names, by which EXR files sort them.
+const ImageMetadata kMetadata = {{"empty", ""}, {"partial", "true"}, {"settings", "--method reinforcement --spp 64"}};
 
 }  // namespace
 
@@ -132,7 +133,7 @@ TEST_CASE("Files that are no pictures of their kind are refused") {
     const TemporaryFolder folder;
     const std::string path = folder.write("a", "something else entirely").string();
     CHECK_THAT(input_error([&] { read_exr(path); }), contains("not an EXR file"));
-    CHECK_THAT(input_error([&] { read_pfm(path); }), contains("not a color PFM file"));
+    CHECK_THAT(input_error([&] { read_pfm(path); }), contains("not a PFM file"));
     CHECK_THAT(input_error([&] { read_png8(path); }), contains("not a PNG file"));
     CHECK_THAT(input_error([&] { read_exr(folder.path() / "gone.exr"); }), contains("no such file"));
     CHECK_THAT(input_error([&] { read_pfm(folder.write("b", "PF\n100000 100000\n-1\n")); }),

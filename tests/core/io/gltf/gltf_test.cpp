@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "core/scene/pack_scene.h"
+#include "core/scene/validate.h"
 #include "tests/support/catch.hpp"
 #include "tests/support/files/load_gltf.h"
 #include "tests/support/files/told.h"
@@ -239,14 +241,73 @@ TEST_CASE("gltf: punctual lights, in watts if Blender wrote them in lumens") {
     CHECK(scene.punctual_lights[1].intensity == glm::vec3(1.0f));
     CHECK(scene.punctual_lights[2].kind == PunctualKind::Spot);
     CHECK(scene.punctual_lights[2].outer_deg == Approx(0.5f * 57.29578f));
-    lights[3]["spot"]["innerConeAngle"] = 0.5;
-    CHECK_THAT(input_error([&] { load_gltf(file); }), contains("innerConeAngle < outerConeAngle"));
-    lights[3]["spot"]["innerConeAngle"] = 0.1;
     lights[1]["intensity"] = -1;
     CHECK_THAT(input_error([&] { load_gltf(file); }), contains("an intensity of at least 0"));
     lights[1]["intensity"] = 683;
     file.root["asset"]["generator"] = "Khronos glTF Blender I/O v4.2.70";
     CHECK(load_gltf(file).punctual_lights[0].intensity.x == Approx(1.0));
+}
+
+TEST_CASE("gltf: spots have hard edges, and cones as wide as the formula allows") {
+    struct Case {
+        double inner, outer;
+        float inner_deg, outer_deg;
+        bool is_told;
+    };
+    const float kDegrees = glm::degrees(1.0f);
+    for (const Case& one :
+         {Case{0.5, 0.5, 0.5f * kDegrees, 0.5f * kDegrees, false}, Case{0.0, 2.0, 0.0f, 2.0f * kDegrees, false},
+          Case{0.0, 4.0, 0.0f, 180.0f, true}, Case{1.0, 0.5, 0.5f * kDegrees, 0.5f * kDegrees, true},
+          Case{-1.0, 0.5, 0.0f, 0.5f * kDegrees, true}}) {
+        INFO(one.inner << " " << one.outer);
+        GltfMaker file;
+        file.triangle();
+        file.root["extensions"]["KHR_lights_punctual"]["lights"] = {
+            {{"type", "spot"}, {"spot", {{"innerConeAngle", one.inner}, {"outerConeAngle", one.outer}}}}};
+        file.node({{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+        const SceneDescription scene = load_gltf(file);
+        REQUIRE(scene.punctual_lights.size() == 1);
+        CHECK(scene.punctual_lights[0].inner_deg == Approx(one.inner_deg));
+        CHECK(scene.punctual_lights[0].outer_deg == Approx(one.outer_deg));
+        CHECK(is_told(scene, "cones of spots are moved") == one.is_told);
+        CHECK_NOTHROW(validate_scene(scene));
+        const DeltaLight light = pack_scene(scene).delta_lights.at(0);
+        CHECK(std::isfinite(light.slope));
+        CHECK(std::isfinite(light.offset));
+    }
+}
+
+TEST_CASE("gltf: a spot without a cone is left out") {
+    GltfMaker file;
+    file.triangle();
+    file.root["extensions"]["KHR_lights_punctual"]["lights"] = {
+        {{"type", "spot"}, {"spot", {{"innerConeAngle", 0}, {"outerConeAngle", 0}}}}};
+    file.node({{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+    const SceneDescription scene = load_gltf(file);
+    CHECK(scene.punctual_lights.empty());
+    CHECK(is_told(scene, "spots without a cone are left out"));
+}
+
+TEST_CASE("gltf: compressed meshes are named, whether or not the file says that they need an extension") {
+    for (const bool is_draco : {true, false}) {
+        GltfMaker file;
+        file.triangle();
+        const char* const name = is_draco ? "KHR_draco_mesh_compression" : "EXT_meshopt_compression";
+        file.root["extensionsUsed"] = {name};
+        CHECK_NOTHROW(load_gltf(file));
+        Json& holder = is_draco ? file.root["meshes"][0]["primitives"][0] : file.root["bufferViews"][0];
+        holder["extensions"][name] = Json::object();
+        // Both kinds may have the meshes without compression, too.
+        CHECK_NOTHROW(load_gltf(file));
+        if (is_draco) {
+            file.root["accessors"][0].erase("bufferView");
+        } else {
+            file.root["buffers"] = {Json::parse(file.text())["buffers"][0], {{"byteLength", 1000}}};
+            file.root["bufferViews"][0]["buffer"] = 1;
+        }
+        CHECK_THAT(input_error([&] { load_gltf(file); }),
+                   contains(std::string("got meshes compressed by ") + (is_draco ? "Draco (KHR_" : "meshopt (EXT_")));
+    }
 }
 
 TEST_CASE("gltf: content without a counterpart is told once for each kind") {

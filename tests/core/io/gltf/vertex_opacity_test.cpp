@@ -95,6 +95,19 @@ TEST_CASE("gltf vertex opacities: a cutoff without an image shows or hides a pri
     CHECK(scene_with(material, {even(0.0f), {0.0f, 0.5f, 1.0f}}).triangles.size() == 3);
 }
 
+TEST_CASE("gltf vertex opacities: a cutoff above 1 cuts everything away") {
+    for (const float alpha : {0.5f, 1.0f}) {
+        Json material = material_of("MASK", alpha);
+        material["alphaCutoff"] = 1.5f;
+        GltfMaker file;
+        file.triangle(material);
+        file.triangle();
+        const SceneDescription scene = load_gltf(file);
+        CHECK(scene.triangles.size() == 1);
+        CHECK(is_told(scene, "surfaces with an alphaCutoff above 1 are cut away"));
+    }
+}
+
 TEST_CASE("gltf vertex opacities: a cutoff of an image is met by the product of both") {
     Json material = material_of("MASK", 1.0f);
     material["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", 0}};
