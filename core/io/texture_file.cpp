@@ -87,7 +87,7 @@ RawImage read_by_stb(const std::string& bytes, const fs::path& path, const std::
     RawImage image;
     int channels = 0;
     if (stbi_info_from_memory(data, size, &image.width, &image.height, &channels) == 0) {
-        fail_image(path, std::string("damaged: ") + stbi_failure_reason());
+        fail_image(path, "damaged: " + stb_failure());
     }
     require_size(path, image.width, image.height);
     const auto read = [&](auto load, float largest) {
@@ -96,7 +96,7 @@ RawImage read_by_stb(const std::string& bytes, const fs::path& path, const std::
         auto* const loaded = load(data, size, &width, &height, &channels, 4);
         const StbPixels<std::remove_pointer_t<decltype(loaded)>> pixels(loaded, &stbi_image_free);
         if (!pixels || width != image.width || height != image.height) {
-            fail_image(path, std::string("damaged: ") + (pixels ? "two sizes" : stbi_failure_reason()));
+            fail_image(path, "damaged: " + (pixels ? "two sizes" : stb_failure()));
         }
         image.texels = unpack(pixels, image, largest);
     };
