@@ -83,11 +83,10 @@ private:
     /// the search for the size tries all of them.
     template <class Load>
     auto load(Load load_from_memory, int& width, int& height) const {
-        const char* const before = stbi_failure_reason();
+        const std::string before = stb_failure();
         int channels = 0;
         auto* const loaded = load_from_memory(data(), size(), &width, &height, &channels, 4);
-        const char* const after = stbi_failure_reason();
-        if (loaded == nullptr) fail(after == before ? "its data cannot be decoded" : after);
+        if (loaded == nullptr) fail(stb_failure() == before ? "its data cannot be decoded" : stb_failure());
         return StbPixels<std::remove_pointer_t<decltype(loaded)>>(loaded, &stbi_image_free);
     }
 

@@ -1,6 +1,7 @@
 #include "core/io/image.h"
 
 #include <fmt/format.h>
+#include <stb_image.h>
 
 #include "core/base/error.h"
 #include "core/io/files.h"
@@ -74,6 +75,11 @@ void require_plausible(const std::filesystem::path& path, long long width, long 
     if (width <= 0 || height <= 0 || width > kMostPixels / height) {
         fail_image(path, fmt::format("a size of {}x{} is not supported", width, height));
     }
+}
+
+std::string stb_failure() {
+    const char* const reason = ::stbi_failure_reason();
+    return reason == nullptr ? "unknown" : reason;
 }
 
 void fail_image(const std::filesystem::path& path, const std::string& why) {

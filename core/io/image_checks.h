@@ -14,6 +14,9 @@ void require_complete(const std::filesystem::path& path, int width, int height, 
 /// Throws Error(Input) unless width and height are positive, with at most 2^28 pixels.
 void require_plausible(const std::filesystem::path& path, long long width, long long height);
 
+/// The reason of the last failure of stb_image, "unknown" where it gives none.
+std::string stb_failure();
+
 [[noreturn]] void fail_image(const std::filesystem::path& path, const std::string& why);
 
 }  // namespace pl

@@ -112,7 +112,7 @@ ByteImage read_png8(const std::filesystem::path& path, ImageMetadata* metadata) 
                               &image.width, &image.height, &channels, 3),
         &stbi_image_free);
     if (!pixels) {
-        fail_image(path, std::string("PNG: ") + stbi_failure_reason());
+        fail_image(path, "PNG: " + stb_failure());
     }
     const std::size_t count = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) * 3;
     image.rgb.assign(pixels.get(), pixels.get() + count);

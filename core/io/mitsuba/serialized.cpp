@@ -13,12 +13,14 @@
 
 #include "core/base/error.h"
 #include "core/io/files.h"
+#include "core/io/image_checks.h"
 
 namespace pl {
 namespace {
 
 constexpr std::uint64_t kMagic = 0x041c;
 constexpr std::uint64_t kHasNormals = 0x1, kHasUvs = 0x2, kHasColors = 0x8, kIsFlat = 0x10, kIsDouble = 0x2000;
+constexpr std::uint64_t kBytesOfTriangle = 12;
 
 /// Little-endian numbers, one after the other.
 class Bytes {
@@ -68,44 +70,82 @@ std::uint64_t place_of(Bytes file, std::uint64_t version, std::int64_t shape, st
     return file.whole(static_cast<std::size_t>(bytes_of_place));
 }
 
-std::string unpacked(std::string_view packed, const Bytes& file) {
-    const auto most = static_cast<std::size_t>(std::numeric_limits<int>::max());
-    const std::string_view given = packed.substr(0, most);
-    for (std::size_t size = 16 * given.size() + 64;; size *= 2) {
-        std::string bytes(std::min(size, kMostSerializedBytes), '\0');
-        const int got = ::stbi_zlib_decode_buffer(bytes.data(), static_cast<int>(bytes.size()), given.data(),
-                                                  static_cast<int>(given.size()));
-        if (got >= 0) {
-            bytes.resize(static_cast<std::size_t>(got));
-            return bytes;
-        }
-        const bool is_too_small = std::string_view(stbi_failure_reason()) == "output buffer limit";
-        if (!is_too_small) file.fail(fmt::format("expected a compressed mesh: {}", stbi_failure_reason()));
-        if (size >= kMostSerializedBytes)
-            file.fail(fmt::format("expected a mesh of at most {} bytes, got more", kMostSerializedBytes));
-    }
+/// The first bytes of a compressed stream, or all if they are fewer.
+std::string unpacked(std::string_view packed, std::size_t most, const Bytes& file) {
+    // A block that begins before the limit is unpacked as a whole, so that it has its room behind.
+    constexpr std::size_t kLargestStoredBlock = 65535;
+    const auto size = static_cast<int>(std::min<std::size_t>(packed.size(), std::numeric_limits<int>::max()));
+    std::string bytes(most + kLargestStoredBlock, '\0');
+    // A failure without a reason leaves that of an earlier one, which must not be the limit.
+    ::stbi_zlib_decode_buffer(bytes.data(), 0, "", 0);
+    const int got = ::stbi_zlib_decode_buffer(bytes.data(), static_cast<int>(bytes.size()), packed.data(), size);
+    const std::string why = got < 0 ? stb_failure() : "";
+    if (got < 0 && why != "output buffer limit") file.fail("expected a compressed mesh: " + why);
+    bytes.resize(got < 0 ? most : std::min(static_cast<std::size_t>(got), most));
+    return bytes;
+}
+
+/// The numbers before the arrays of a mesh.
+struct MeshHead {
+    std::uint64_t flags = 0, vertices = 0, triangles = 0;
+
+    bool has(std::uint64_t flag) const { return (flags & flag) != 0; }
+};
+
+MeshHead read_head(Bytes& file, std::uint64_t version) {
+    MeshHead head{.flags = file.whole(4)};
+    while (version == 4 && file.whole(1) != 0) continue;  // its name
+    head.vertices = file.whole(8);
+    head.triangles = file.whole(8);
+    return head;
+}
+
+std::uint64_t bytes_of_vertex(const MeshHead& head) {
+    const std::uint64_t numbers =
+        3 + (head.has(kHasNormals) ? 3 : 0) + (head.has(kHasUvs) ? 2 : 0) + (head.has(kHasColors) ? 3 : 0);
+    return numbers * (head.has(kIsDouble) ? 8 : 4);
+}
+
+std::uint64_t bytes_of_arrays(const MeshHead& head) {
+    return head.vertices * bytes_of_vertex(head) + head.triangles * kBytesOfTriangle;
+}
+
+void require_room(const MeshHead& head, std::uint64_t most, const Bytes& file) {
+    // Each count by itself first: products of huge ones wrap around.
+    if (head.vertices > most || head.triangles > most || bytes_of_arrays(head) > most)
+        file.fail(fmt::format("expected counts that fit into {} bytes, got {} vertices and {} triangles", most,
+                              head.vertices, head.triangles));
+}
+
+/// Unpacks no more than the counts at the beginning of the mesh say.
+std::string unpacked_mesh(std::string_view packed, std::uint64_t version, const Bytes& file,
+                          const std::filesystem::path& path) {
+    constexpr std::size_t kMostHead = 65536;
+    const std::string start = unpacked(packed, kMostHead, file);
+    Bytes bytes(start, path);
+    const MeshHead head = read_head(bytes, version);
+    constexpr std::size_t kMostRatio = 1032;  // of deflate   [zlib, Technical Details]
+    const std::uint64_t most = std::min(kMostSerializedBytes, kMostRatio * packed.size());
+    require_room(head, most, bytes);
+    return unpacked(packed, start.size() - bytes.left() + static_cast<std::size_t>(bytes_of_arrays(head)), file);
 }
 
 SerializedMesh read_mesh(Bytes file, std::uint64_t version) {
-    const std::uint64_t flags = file.whole(4);
-    while (version == 4 && file.whole(1) != 0) continue;  // its name
-    const std::uint64_t vertices = file.whole(8);
-    const std::uint64_t triangles = file.whole(8);
-    if (vertices > file.left() / 12 || triangles > file.left() / 12)
-        file.fail(fmt::format("expected counts that fit into {} bytes, got {} vertices and {} triangles", file.left(),
-                              vertices, triangles));
-    const bool is_double = (flags & kIsDouble) != 0;
-    SerializedMesh result{.mesh = {}, .is_flat = (flags & kIsFlat) != 0};
+    const MeshHead head = read_head(file, version);
+    const std::uint64_t vertices = head.vertices;
+    require_room(head, file.left(), file);
+    const bool is_double = head.has(kIsDouble);
+    SerializedMesh result{.mesh = {}, .is_flat = head.has(kIsFlat)};
     const auto vectors = [&](auto& to) {
         to.resize(static_cast<std::size_t>(vertices));
         for (auto& v : to)
             for (int k = 0; k < v.length(); ++k) v[k] = file.real(is_double);
     };
     vectors(result.mesh.positions);
-    if ((flags & kHasNormals) != 0) vectors(result.mesh.normals);
-    if ((flags & kHasUvs) != 0) vectors(result.mesh.uvs);
-    if ((flags & kHasColors) != 0) file.skip(vertices * (is_double ? 24 : 12));
-    for (std::uint64_t i = 0; i < triangles; ++i) {
+    if (head.has(kHasNormals)) vectors(result.mesh.normals);
+    if (head.has(kHasUvs)) vectors(result.mesh.uvs);
+    if (head.has(kHasColors)) file.skip(vertices * (is_double ? 24 : 12));
+    for (std::uint64_t i = 0; i < head.triangles; ++i) {
         std::array<std::uint32_t, 3> corners{};
         for (std::uint32_t& corner : corners) {
             corner = static_cast<std::uint32_t>(file.whole(4));
@@ -131,7 +171,7 @@ SerializedMesh read_serialized(const std::filesystem::path& path, std::int64_t s
     file.go_to(place_of(file, version, shape, bytes.size()));
     if (file.whole(2) != kMagic) file.fail("expected the beginning of a shape");
     file.skip(2);
-    const std::string mesh = unpacked(file.rest(), file);
+    const std::string mesh = unpacked_mesh(file.rest(), version, file, path);
     return read_mesh(Bytes(mesh, path), version);
 }
 

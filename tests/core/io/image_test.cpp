@@ -6,8 +6,10 @@
 #include <cstring>
 #include <limits>
 #include <random>
+#include <thread>
 
 #include "core/io/files.h"
+#include "core/io/image_checks.h"
 #include "tests/support/catch.hpp"
 #include "tests/support/files/input_error.h"
 #include "tests/support/files/temporary_folder.h"
@@ -184,4 +186,11 @@ TEST_CASE("EXR files of half floats keep three digits, limit radiance that is to
         REQUIRE(std::fabs(read.pixels[i].x - image.pixels[i].x) <= image.pixels[i].x / 2048.0f);
     CHECK(std::filesystem::file_size(folder.path() / "half.exr") <
           std::filesystem::file_size(folder.path() / "float.exr"));
+}
+
+TEST_CASE("image: a failure of the library without a reason is unknown") {
+    // Reasons are those of a thread: a new one has none yet.
+    std::string reason;
+    std::thread([&] { reason = stb_failure(); }).join();
+    CHECK(reason == "unknown");
 }

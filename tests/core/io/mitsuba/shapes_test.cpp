@@ -55,13 +55,15 @@ std::string stored(const std::string& bytes) {
            bytes + number_bytes(0, 4);
 }
 
+std::string one_shape(const std::string& packed) { return number_bytes(0x041c, 2) + number_bytes(4, 2) + packed; }
+
 /// A mesh of version 4 of two triangles in the plane z, with texture coordinates.
 std::string serialized_square(float z, std::uint32_t last = 3) {
     std::string mesh = number_bytes(0x1002, 4) + std::string("name") + '\0' + number_bytes(4, 8) +
                        number_bytes(2, 8) + float_bytes({0, 0, z, 1, 0, z, 1, 1, z, 0, 1, z}) +
                        float_bytes({0, 0, 1, 0, 1, 1, 0, 1});
     for (const std::uint32_t corner : {0u, 1u, 2u, 0u, 2u, last}) mesh += number_bytes(corner, 4);
-    return number_bytes(0x041c, 2) + number_bytes(4, 2) + stored(mesh);
+    return one_shape(stored(mesh));
 }
 
 std::string serialized_file(const std::vector<std::string>& shapes) {
@@ -286,6 +288,15 @@ TEST_CASE("mitsuba: damaged serialized meshes are refused with the byte") {
     CHECK_THAT(refused(serialized_file({serialized_square(NAN)})), contains("a finite number"));
     CHECK_THAT(refused(good.substr(0, 4) + "nothing packed" + good.substr(good.size() - 12)),
                contains("a compressed mesh"));
+    // A block of the kind that does not exist, for which the library gives no reason.
+    CHECK_THAT(refused(serialized_file({one_shape("\x78\x01\x07")})), contains("a compressed mesh"));
+    // Counts that the packed bytes cannot hold take no memory.
+    const auto counts = [&](std::uint64_t vertices, std::uint64_t triangles) {
+        return refused(serialized_file({one_shape(stored(number_bytes(0, 4) + std::string(1, '\0') +
+                                                         number_bytes(vertices, 8) + number_bytes(triangles, 8)))}));
+    };
+    CHECK_THAT(counts(std::uint64_t{1} << 24, 0), contains("expected counts that fit into"));
+    CHECK_THAT(counts(std::uint64_t{1} << 62, std::uint64_t{1} << 62), contains("expected counts that fit into"));
     for (std::size_t size = 0; size < good.size(); size += 7) CHECK_FALSE(refused(good.substr(0, size)).empty());
 }
 
