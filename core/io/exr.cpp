@@ -3,12 +3,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
+#include <cstring>
+#include <iterator>
+#include <string_view>
 
 #include <fmt/format.h>
 #include <Iex.h>
-#include <ImfArray.h>
 #include <ImfChannelList.h>
 #include <ImfChromaticities.h>
 #include <ImfFrameBuffer.h>
@@ -34,8 +35,9 @@ namespace {
 constexpr int kThreads = 0;
 constexpr std::array<const char*, 3> kColors = {"R", "G", "B"};
 
-/// As many rows as are read at once: memory grows with what the file has, whatever size its header says.
-constexpr int kRowsAtOnce = 64;
+/// As many pixels as are read at once, but at least a row: memory grows with what the file has, whatever size its
+/// header says.
+constexpr int kPixelsAtOnce = 1 << 20;
 
 /// The library makes tables of this length before anyone can look at the size.
 void limit_library() {
@@ -73,6 +75,41 @@ std::string encode(const Imf::Header& header, const LinearImage& image, Imf::Pix
         file.writePixels(image.height);
     }
     return stream.str();
+}
+
+/// Whether the attributes of all headers end in the file: the library makes room for a text of any length.
+///   [OpenEXR, "File Layout"]
+bool has_whole_headers(std::string_view bytes) {
+    constexpr std::size_t kVersionAt = 4;
+    constexpr unsigned char kSeveralParts = 0x10;  // in the second byte of the version
+    if (bytes.size() < 2 * kVersionAt) return false;
+    const bool has_parts = (static_cast<unsigned char>(bytes[kVersionAt + 1]) & kSeveralParts) != 0;
+    std::string_view rest = bytes.substr(2 * kVersionAt);
+    const auto take_text = [&] {  // false if it is empty, as at the end of a header
+        const std::size_t length = std::min(rest.find('\0'), rest.size());
+        rest.remove_prefix(std::min(length + 1, rest.size()));
+        return length > 0;
+    };
+    do {
+        while (take_text()) {  // name, type, size, value
+            std::uint32_t size = 0;
+            take_text();
+            if (rest.size() < sizeof size) return false;
+            std::memcpy(&size, rest.data(), sizeof size);
+            rest.remove_prefix(sizeof size);
+            if (size > rest.size()) return false;
+            rest.remove_prefix(size);
+        }
+    } while (has_parts && !rest.empty() && rest.front() != '\0');
+    return true;
+}
+
+/// The reason that the library gives, without the name of the file before it.
+std::string reason_of(const Iex::BaseExc& error) {
+    const std::string words = error.what();
+    constexpr std::string_view kBefore = "\"(string)\". ";
+    const std::size_t at = words.rfind(kBefore);
+    return at == std::string::npos ? words : words.substr(at + kBefore.size());
 }
 
 ExrPart part_of(const Imf::Header& header) {
@@ -145,16 +182,17 @@ private:
         }
     }
 
-    /// Calls `read_rows` for some rows after another, which are those of the window from `first` to `last`.
+    /// Reads a window by `read_rows` for some rows after others, with the window of these and the place for their pixels.
     template <class Pixel, class ReadRows, class Convert>
     static LinearImage read_in_blocks(const Imath::Box2i& window, ReadRows&& read_rows, Convert&& convert) {
         LinearImage image{
             .width = window.max.x - window.min.x + 1, .height = window.max.y - window.min.y + 1, .pixels = {}};
         const auto width = static_cast<std::size_t>(image.width);
         image.pixels.reserve(width * static_cast<std::size_t>(image.height));
-        std::vector<Pixel> rows(width * static_cast<std::size_t>(std::min(kRowsAtOnce, image.height)));
-        for (int done = 0; done < image.height; done += kRowsAtOnce) {
-            const int count = std::min(kRowsAtOnce, image.height - done);
+        const int rows_at_once = std::clamp(kPixelsAtOnce / image.width, 1, image.height);
+        std::vector<Pixel> rows(width * static_cast<std::size_t>(rows_at_once));
+        for (int done = 0; done < image.height; done += rows_at_once) {
+            const int count = std::min(rows_at_once, image.height - done);
             const Imath::Box2i block({window.min.x, window.min.y + done},
                                      {window.max.x, window.min.y + done + count - 1});
             read_rows(block, rows.data());
@@ -227,11 +265,12 @@ void write_exr(const std::filesystem::path& path, const LinearImage& image, cons
 
 LinearImage decode_exr(const std::string& bytes, const LinearSettings& settings) {
     if (!bytes.starts_with("\x76\x2f\x31\x01")) fail_image(settings.path, "not an EXR file");
+    if (!has_whole_headers(bytes)) fail_image(settings.path, "damaged: its header is not whole");
     limit_library();
     try {
         return ExrDecoder(bytes, settings).run();
     } catch (const Iex::BaseExc& error) {
-        fail_image(settings.path, fmt::format("EXR: {}", error.what()));
+        fail_image(settings.path, "a damaged exr file, or of a variant that is not supported: " + reason_of(error));
     }
 }
 

@@ -93,6 +93,7 @@ cuda*:             cuda
 mpi.h:             mpi
 tiny_obj_loader.h: core/io
 Imf*:              core/io/exr.cpp
+Iex*:              core/io/exr.cpp
 stb_*:             core/io
 '
 

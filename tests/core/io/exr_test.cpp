@@ -25,6 +25,7 @@
 #include "tests/support/files/temporary_folder.h"
 
 using namespace pl;
+using std::string_literals::operator""s;
 using pl::test::contains;
 using pl::test::input_error;
 using pl::test::loads_or_refuses;
@@ -273,7 +274,8 @@ TEST_CASE("EXR files of luminance and chroma are read") {
         const float gray = 0.2126f * 0.5f + 0.7152f * 0.25f + 0.0722f * 0.75f;
         const glm::vec3 right = channels == Imf::WRITE_Y ? glm::vec3(gray) : glm::vec3(0.5f, 0.25f, 0.75f);
         for (const std::size_t at : {std::size_t{0}, pixels.size() / 2, pixels.size() - 1})
-            for (int c = 0; c < 3; ++c) CHECK(got.image.pixels[at][c] == Approx(right[c]).epsilon(0.004));
+            for (int c = 0; c < 3; ++c)  // the library rounds chroma when it writes
+                CHECK(got.image.pixels[at][c] == Approx(right[c]).epsilon(0.01));
         CHECK(got.warnings.empty());
     }
 }
@@ -334,6 +336,15 @@ TEST_CASE("Deep EXR files are refused") {
         file.writePixels(1);
     }
     CHECK_THAT(input_error([&] { read(path); }), contains("'Z' (deep)"));
+}
+
+TEST_CASE("EXR files with a text that is longer than the file are refused") {
+    const TemporaryFolder folder;
+    const auto path = folder.path() / "a.exr";
+    write_exr(path, {.width = 1, .height = 1, .pixels = {glm::vec3(1.0f)}}, {{"note", "x"}});
+    std::string bytes = read_file(path);
+    bytes.replace(bytes.find("note\0string\0"s) + 12, 4, "\xff\xff\xff\x7f");
+    CHECK_THAT(input_error([&] { read(folder.write("b.exr", bytes)); }), contains("its header is not whole"));
 }
 
 TEST_CASE("EXR files that promise more than they have are refused at once") {
