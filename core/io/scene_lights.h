@@ -13,7 +13,7 @@ namespace pl {
 ///   direction     [x, y, z] in which the light travels, of spots and directional lights
 ///   intensity     [r, g, b] of points and spots, W/sr
 ///   irradiance    [r, g, b] of directional lights: of a surface that faces them, W/m^2
-///   inner_deg, outer_deg    half angles of a spot's cones: full intensity inside of the inner one, none outside of the outer one
+///   inner_deg, outer_deg    half angles of a spot's cones: full intensity inside of the inner one, none outside of the outer one; equal for a hard edge
 ///   falloff       "cosine" (default) or "angle", see SpotFalloff
 /// Throws Error(Input) with file and line.
 void read_punctual_lights(const JsonDocument& file, SceneDescription& scene);

@@ -94,10 +94,12 @@ TEST_CASE("2 and 3: what compare refuses") {
     write_exr(files.folder / "large.exr", plain(2, 3, 1.0f));
     check_refused(3, {"compare", files.folder / "large.exr", files.reference}, "expected a size of 3x2");
     write_all(files.folder / "broken.exr", "no picture");
-    check_refused(3, {"compare", files.picture, files.folder / "broken.exr"}, "broken.exr: not an EXR file");
+    check_refused(3, {"compare", files.picture, files.folder / "broken.exr"}, "broken.exr: expected an image");
     write_png8(files.folder / "shown.png", {.width = 1, .height = 1, .rgb = {1, 2, 3}});
     check_refused(3, {"compare", files.folder / "shown.png", files.reference}, "tone mapped");
-    check_refused(3, {"compare", files.picture, files.folder.path().string() + "/x.jpg"}, ".exr or .pfm");
+    write_all(files.folder / "x.jpg", "\xff\xd8\xff");
+    check_refused(3, {"compare", files.picture, files.folder / "x.jpg"},
+                  "expected a linear picture (exr, pfm or hdr)");
 }
 
 TEST_CASE("3: pixels that are no numbers are counted and refused, wherever they are") {
