@@ -293,7 +293,7 @@ TEST_CASE("gltf: compressed meshes are named, whether or not the file says that 
         GltfMaker file;
         file.triangle();
         const char* const name = is_draco ? "KHR_draco_mesh_compression" : "EXT_meshopt_compression";
-        file.root["extensionsUsed"] = {name};
+        file.root["extensionsUsed"] = Json::array({name});
         CHECK_NOTHROW(load_gltf(file));
         Json& holder = is_draco ? file.root["meshes"][0]["primitives"][0] : file.root["bufferViews"][0];
         holder["extensions"][name] = Json::object();
