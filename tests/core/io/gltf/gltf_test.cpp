@@ -271,7 +271,9 @@ TEST_CASE("gltf: spots have hard edges, and cones as wide as the formula allows"
         CHECK(scene.punctual_lights[0].outer_deg == Approx(one.outer_deg));
         CHECK(is_told(scene, "cones of spots are moved") == one.is_told);
         CHECK_NOTHROW(validate_scene(scene));
-        const DeltaLight light = pack_scene(scene).delta_lights.at(0);
+        const HostScene packed = pack_scene(scene);
+        REQUIRE(packed.delta_lights.size() == 1);
+        const DeltaLight& light = packed.delta_lights[0];
         CHECK(std::isfinite(light.slope));
         CHECK(std::isfinite(light.offset));
     }
