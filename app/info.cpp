@@ -125,6 +125,9 @@ std::string report_text(const SceneReport& report) {
             fmt::format("           {}={} (from {} to {}, default {}): {}\n", knob.name, print_float(knob.value),
                         print_float(knob.low), print_float(knob.high), print_float(knob.default_value), knob.does);
     text += fmt::format("bounds     {} to {}\n", print_vector(report.bounds.low), print_vector(report.bounds.high));
+    if (scene.origin != glm::dvec3(0.0))
+        text += fmt::format("origin     {} {} {} in the file's coordinates: all others here count from it\n",
+                            scene.origin.x, scene.origin.y, scene.origin.z);
     text += fmt::format("camera     eye {}, target {}, up {}, fov {} degrees\n", print_vector(camera.eye),
                         print_vector(camera.target), print_vector(camera.up), print_float(camera.fov_deg));
     for (std::size_t i = 0; i < scene.cameras.size(); ++i)
@@ -181,6 +184,7 @@ Json json_of(const SceneReport& report) {
               {"bytes_per_triangle", bytes_per_triangle(report.packed)},
               {"knobs", knobs},
               {"bounds", {{"low", vector_json(report.bounds.low)}, {"high", vector_json(report.bounds.high)}}},
+              {"origin", {scene.origin.x, scene.origin.y, scene.origin.z}},
               {"camera", camera_json(scene.camera)},
               {"cameras", cameras},
               {"effects_needed", effects},

@@ -16,8 +16,8 @@ CameraChoice read_camera(const JsonDocument& file, const std::string& pointer,
     std::vector<std::string> known(kCameraMembers.begin(), kCameraMembers.end());
     known.insert(known.end(), others.begin(), others.end());
     if (file.object(pointer, known) == nullptr) file.fail(pointer, "expected a camera { ... }");
-    const CameraChoice camera{.eye = file.vector(pointer + "/eye"),
-                              .target = file.vector(pointer + "/target"),
+    const CameraChoice camera{.eye = file.point(pointer + "/eye"),
+                              .target = file.point(pointer + "/target"),
                               .up = file.vector(pointer + "/up"),
                               .fov_deg = file.number(pointer + "/fov_deg"),
                               .aperture_radius = file.number(pointer + "/aperture_radius"),

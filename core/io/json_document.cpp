@@ -268,6 +268,15 @@ std::optional<glm::vec3> JsonDocument::vector(const std::string& pointer) const 
     return result;
 }
 
+std::optional<glm::vec3> JsonDocument::point(const std::string& pointer) const {
+    const std::optional<glm::vec3> rounded = vector(pointer);
+    if (!rounded || origin_ == glm::dvec3(0.0)) {
+        return rounded;
+    }
+    const std::vector<double> exact = *numbers(pointer, 3);
+    return glm::vec3(glm::dvec3(exact[0], exact[1], exact[2]) - origin_);
+}
+
 std::optional<glm::vec2> JsonDocument::range(const std::string& pointer) const {
     const json* const value = find(pointer);
     if (value == nullptr) {

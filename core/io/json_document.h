@@ -41,11 +41,16 @@ public:
     /// An array of so many finite numbers.
     std::optional<std::vector<double>> numbers(const std::string& pointer, std::size_t length) const;
     std::optional<glm::vec3> vector(const std::string& pointer) const;
+    /// A vector from the point of count_from().
+    std::optional<glm::vec3> point(const std::string& pointer) const;
     /// [low, high] with low < high.
     std::optional<glm::vec2> range(const std::string& pointer) const;
     std::optional<std::vector<std::string>> texts(const std::string& pointer) const;
     /// Number of elements of the array at `pointer`, 0 if there is none.
     std::size_t array_size(const std::string& pointer) const;
+
+    /// For point(): of a scene that was moved.
+    void count_from(const glm::dvec3& origin) { origin_ = origin; }
 
 private:
     const nlohmann::json* find(const std::string& pointer) const;
@@ -53,6 +58,7 @@ private:
     std::filesystem::path path_;
     std::map<std::string, int> lines_;
     nlohmann::json root_;
+    glm::dvec3 origin_{0.0};
 };
 
 /// A key, escaped as one step of a JSON pointer.

@@ -85,6 +85,13 @@ std::vector<std::string_view> split_words(std::string_view text) {
     return words;
 }
 
+std::string lower_case(std::string_view word) {
+    std::string lower(word);
+    std::transform(lower.begin(), lower.end(), lower.begin(),
+                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+    return lower;
+}
+
 std::string in_quotes(std::string_view word, std::size_t limit) {
     std::string shown(word.substr(0, limit));
     for (char& c : shown) {

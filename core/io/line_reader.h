@@ -27,6 +27,9 @@ std::optional<std::int64_t> parse_integer(std::string_view word);
 /// Words separated by blanks; a word that starts with '#' begins a comment.
 std::vector<std::string_view> split_words(std::string_view text);
 
+/// With the letters A to Z as small ones.
+std::string lower_case(std::string_view word);
+
 /// At most `limit` characters of a word in quotes, for messages; unprintable characters become '?'.
 std::string in_quotes(std::string_view word, std::size_t limit = 40);
 

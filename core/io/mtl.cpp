@@ -2,13 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include <fmt/format.h>
 
+#include "core/base/error.h"
 #include "core/io/files.h"
 #include "core/io/height_map.h"
 #include "core/io/line_reader.h"
 #include "core/io/mtl_reader.h"
+#include "core/io/obj_names.h"
 #include "core/io/tally.h"
 #include "core/io/texture_file.h"
 
@@ -26,12 +29,34 @@ bool has_colors(const TextureDescription& texture) {
     });
 }
 
+fs::path folder_of_scene(const SceneDescription& scene, const fs::path& mtl) {
+    return scene.source.empty() ? mtl.parent_path() : scene.source.parent_path();
+}
+
 class TextureAdder {
 public:
-    TextureAdder(SceneDescription& scene, const fs::path& mtl) : scene_(scene), folder_(mtl.parent_path()) {}
+    TextureAdder(SceneDescription& scene, const fs::path& mtl)
+        : scene_(scene), mtl_(mtl), root_(folder_of_scene(scene, mtl)) {
+        const fs::path relative = mtl.parent_path().lexically_relative(root_);
+        from_ = relative == "." ? fs::path() : relative;
+    }
 
     std::uint32_t add(const MtlMap& map, TextureContent content) {
-        return map ? add_texture(scene_, path_of(map.name), content, !map.clamps) : kNoTexture;
+        if (!map) return kNoTexture;
+        const NamedFile file = find_named_file(root_, from_, map.name);
+        if (!file.is_there && file.is_elsewhere) {
+            return add_texture_by(scene_, file.path, content, !map.clamps, [&]() -> TextureDescription {
+                throw Error(ErrorKind::Input,
+                            fmt::format("{}: {} is outside of the scene's folder, where none of its "
+                                        "name is",
+                                        place(mtl_, map.line), in_quotes(map.name)));
+            });
+        }
+        if (file.is_elsewhere && moved_names_.insert(map.name).second) {
+            moved_.add(map.line,
+                       [&] { return fmt::format("image {}: {}", in_quotes(map.name), file.path.string()); });
+        }
+        return add_texture(scene_, file.path, content, !map.clamps);
     }
 
     /// Exporters write images of normals as `map_Bump`, too; an image without colors is one of heights.
@@ -42,6 +67,8 @@ public:
         scene_.textures.resize(before);
         return add_relief(entry.bump);
     }
+
+    void tell() const { moved_.tell(scene_.warnings, mtl_, "read, because the named one is not there"); }
 
 private:
     std::uint32_t add_relief(const MtlMap& map) {
@@ -56,15 +83,25 @@ private:
         return texture;
     }
 
-    /// Absolute paths of another computer are looked up by their file name beside the MTL file.
-    fs::path path_of(const std::string& name) const {
-        const fs::path inside = path_inside(folder_, name);
-        return inside.empty() ? folder_ / name.substr(name.find_last_of("/\\") + 1) : inside;
-    }
-
     SceneDescription& scene_;
-    fs::path folder_;
+    const fs::path& mtl_;
+    fs::path root_;
+    fs::path from_;  ///< folder of the file, from `root_`
+    std::set<std::string> moved_names_;
+    Tally moved_;
 };
+
+/// The place of the images of a material: that of the first one. `differs` if not all are there.
+UvScale uvs_of(const MtlEntry& entry, bool& differs) {
+    const MtlMap* first = nullptr;
+    for (const MtlMap* map : {&entry.map_kd, &entry.map_ke, entry.map_pr ? &entry.map_pr : &entry.map_ns,
+                              &entry.map_d, entry.norm ? &entry.norm : &entry.bump}) {
+        if (!*map) continue;
+        first = first == nullptr ? map : first;
+        differs = differs || !(map->uvs == first->uvs);
+    }
+    return first == nullptr ? UvScale{} : first->uvs;
+}
 
 /// Gray of 0.8, or of 0.64, its square: written beside images by exporters that do not mean it.
 bool is_default_of_exporters(const std::optional<glm::vec3>& kd) {
@@ -76,9 +113,11 @@ bool is_default_of_exporters(const std::optional<glm::vec3>& kd) {
 
 }  // namespace
 
-void load_mtl(const fs::path& path, SceneDescription& scene, MapKd map_kd) {
+std::vector<UvScale> load_mtl(const fs::path& path, SceneDescription& scene, MapKd map_kd) {
     TextureAdder textures(scene, path);
     Tally dimmed;
+    Tally differing;
+    std::vector<UvScale> uvs;
     for (MtlEntry& entry : read_mtl(read_text_file(path), path, scene.warnings)) {
         std::vector<std::string> notes;
         if (entry.map_kd && map_kd == MapKd::Replaces) {
@@ -104,11 +143,17 @@ void load_mtl(const fs::path& path, SceneDescription& scene, MapKd map_kd) {
                 fmt::format("{}: material {} {}", place(path, entry.line), in_quotes(entry.name), note));
         }
         scene.materials.push_back(std::move(material));
+        bool differs = false;
+        uvs.push_back(uvs_of(entry, differs));
+        if (differs) differing.add(entry.line);
     }
+    textures.tell();
+    differing.tell(scene.warnings, path, "images of one material with different -s or -o: those of the first count");
     dimmed.tell(
         scene.warnings, path,
         "the image of map_Kd is multiplied by a Kd that is a default of exporters (--map-kd replace: the image "
         "alone, as Blender shows it)");
+    return uvs;
 }
 
 }  // namespace pl

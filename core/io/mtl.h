@@ -2,8 +2,10 @@
 #pragma once
 
 #include <filesystem>
+#include <vector>
 
 #include "core/io/map_kd.h"
+#include "core/io/mtl_entry.h"
 #include "core/io/mtl_surface.h"
 #include "core/scene/description.h"
 
@@ -13,13 +15,17 @@ namespace pl {
 ///   Kd r g b          linear reflectance; one number means gray; clamped to [0, 1] with a warning
 ///   Ke r g b          linear emitted radiance of the front side; a material may both reflect and emit
 ///   Ks Ns Ni d Tr Tf illum Pr Pm Pc, our own Pl_surface Pl_roughness Pl_ior    kind of surface: docs/materials.md
-///   map_Kd map_Ke map_Pr map_Ns map_d    images in the folder of the file or below; the option -clamp on
+///   map_Kd map_Ke map_Pr map_Ns map_d norm bump    images in the scene's folder or below: find_named_file(); the options -s, -o,
+///                     -clamp and -bm
 ///   Pl_two_sided 0|1  emission from the back side too
 /// A material without any color has kDefaultAlbedo; of two materials with the same name the first counts. Both give a
 /// warning, as do ignored statements that would change the picture and textures that cannot be read.
 /// With MapKd::Replaces an image of Kd is multiplied by 1. With MapKd::Multiplies one warning tells of materials whose Kd is a
 /// default of exporters.
-/// Throws Error(Input) with file and line for values of Kd, Ke and the Pl_ keys that are negative or not finite.
-void load_mtl(const std::filesystem::path& path, SceneDescription& scene, MapKd map_kd = MapKd::Multiplies);
+/// The scene's folder is that of scene.source, or of the file if there is none. Returns, for each material that was added, the place of
+/// its images, which the caller gives to the texture coordinates; of images in several places the first counts, with a warning.
+/// Throws Error(Input) for a file that is no text.
+std::vector<UvScale> load_mtl(const std::filesystem::path& path, SceneDescription& scene,
+                              MapKd map_kd = MapKd::Multiplies);
 
 }  // namespace pl

@@ -10,11 +10,21 @@
 
 namespace pl {
 
+/// Of -s and -o: texture coordinates times `scale` plus `offset` are those in the image, as in Blender.
+struct UvScale {
+    glm::vec2 scale{1.0f};
+    glm::vec2 offset{0.0f};
+
+    friend bool operator==(const UvScale&, const UvScale&) = default;
+};
+
 /// A `map_` statement.
 struct MtlMap {
     std::string name{};  ///< of the image file; empty: no image
     bool clamps = false;
     float strength = 1.0f;  ///< of -bm: factor of the slopes of normals
+    UvScale uvs{};
+    int line = 0;
 
     explicit operator bool() const { return !name.empty(); }
 };
@@ -26,7 +36,8 @@ struct MtlEntry {
     std::optional<glm::vec3> kd, ke, ks, tf;
     std::optional<float> ns;          ///< at least 0
     std::optional<float> ni;          ///< within [kLeastIor, kMostIor]
-    std::optional<float> d;           ///< in [0, 1]; 1 - Tr
+    std::optional<float> d;           ///< in [0, 1]
+    std::optional<float> tr;          ///< in [0, 1]; read_mtl() has made `d` of it
     std::optional<float> pr, pm, pc;  ///< in [0, 1]
     std::optional<int> illum;
     MtlMap map_kd, map_ke, map_pr, map_ns, map_d;

@@ -11,10 +11,10 @@ namespace pl {
 
 struct ParsedMap {
     MtlMap map;                            ///< empty if there is no name
-    std::vector<std::string> unsupported;  ///< options that would change the picture
+    std::vector<std::string> unsupported;  ///< options with values that would change the picture
 };
 
-/// The name is the rest after the options, with blanks.
+/// The name is the rest after the options, with blanks or in quotes.
 ParsedMap parse_map(std::string_view arguments);
 
 }  // namespace pl

@@ -11,7 +11,8 @@
 
 #include "core/io/line_reader.h"
 #include "core/io/mtl_map.h"
-#include "core/io/obj_check.h"
+#include "core/io/mtl_surface.h"
+#include "core/io/obj_names.h"
 #include "core/io/surface_names.h"
 #include "core/io/tally.h"
 #include "core/scene/description.h"
@@ -20,47 +21,61 @@ namespace pl {
 
 namespace {
 
-/// Keys that other programs write: their member of MtlEntry and plausible range. Others are ignored with a warning.
+/// Numbers: their member of MtlEntry and plausible range. Keys are in small letters: programs write them in any.
 struct NumberKey {
     std::string_view name;
     std::optional<float> MtlEntry::*number;
     float least, most;
 };
 constexpr float kAny = std::numeric_limits<float>::max();
-constexpr std::array<NumberKey, 6> kNumbers = {{
-    {"Ns", &MtlEntry::ns, 0.0f, kAny},
-    {"Ni", &MtlEntry::ni, kLeastIor, kMostIor},
+constexpr std::array<NumberKey, 9> kNumbers = {{
+    {"ns", &MtlEntry::ns, 0.0f, kAny},
+    {"ni", &MtlEntry::ni, kLeastIor, kMostIor},
     {"d", &MtlEntry::d, 0.0f, 1.0f},
-    {"Pr", &MtlEntry::pr, 0.0f, 1.0f},
-    {"Pm", &MtlEntry::pm, 0.0f, 1.0f},
-    {"Pc", &MtlEntry::pc, 0.0f, 1.0f},
+    {"tr", &MtlEntry::tr, 0.0f, 1.0f},
+    {"pr", &MtlEntry::pr, 0.0f, 1.0f},
+    {"pm", &MtlEntry::pm, 0.0f, 1.0f},
+    {"pc", &MtlEntry::pc, 0.0f, 1.0f},
+    {"pl_roughness", &MtlEntry::roughness, 0.0f, 1.0f},
+    {"pl_ior", &MtlEntry::own_ior, kLeastIor, kMostIor},
 }};
 
-/// Pl_ keys: values out of range are errors.
-constexpr std::array<NumberKey, 2> kOwnNumbers = {{
-    {"Pl_roughness", &MtlEntry::roughness, 0.0f, 1.0f},
-    {"Pl_ior", &MtlEntry::own_ior, kLeastIor, kMostIor},
+struct ColorKey {
+    std::string_view name;
+    std::optional<glm::vec3> MtlEntry::*color;
+};
+constexpr std::array<ColorKey, 4> kColors = {{
+    {"kd", &MtlEntry::kd},
+    {"ke", &MtlEntry::ke},
+    {"ks", &MtlEntry::ks},
+    {"tf", &MtlEntry::tf},
 }};
 
 struct MapKey {
     std::string_view name;
     MtlMap MtlEntry::*map;
 };
-constexpr std::array<MapKey, 9> kMaps = {{
-    {"map_Kd", &MtlEntry::map_kd},
-    {"map_Ke", &MtlEntry::map_ke},
-    {"map_Pr", &MtlEntry::map_pr},
-    {"map_Ns", &MtlEntry::map_ns},
+constexpr std::array<MapKey, 8> kMaps = {{
+    {"map_kd", &MtlEntry::map_kd},
+    {"map_ke", &MtlEntry::map_ke},
+    {"map_pr", &MtlEntry::map_pr},
+    {"map_ns", &MtlEntry::map_ns},
     {"map_d", &MtlEntry::map_d},
     {"norm", &MtlEntry::norm},
     {"bump", &MtlEntry::bump},
     {"map_bump", &MtlEntry::bump},
-    {"map_Bump", &MtlEntry::bump},
 }};
 
-/// Ignored with a warning, because they would change the picture.
-constexpr std::array<std::string_view, 7> kUnsupported = {"disp",   "decal",  "refl",    "map_Ks",
-                                                          "map_Pm", "map_Tr", "map_refl"};
+/// Left out with a warning, because they would change the picture.
+constexpr std::array<std::string_view, 9> kUnsupported = {"disp",   "decal",    "refl", "map_ks", "map_pm",
+                                                          "map_tr", "map_refl", "ps",   "aniso"};
+/// These change nothing here: light of all directions, and numbers of parts that are not there.
+constexpr std::array<std::string_view, 6> kHarmless = {"ka", "map_ka", "sharpness", "map_aat", "pcr", "anisor"};
+
+template <class Names>
+bool has(const Names& names, std::string_view name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+}
 
 template <class Keys>
 const typename Keys::value_type* find_key(const Keys& keys, std::string_view name) {
@@ -75,35 +90,33 @@ public:
 
     std::vector<MtlEntry> run() {
         while (reader_.next()) {
-            statement(reader_.keyword());
+            statement(lower_case(reader_.keyword()));
         }
         for (auto& [key, tally] : odd_) {
-            tally.tell(warnings_, path_, fmt::format("'{}': an implausible value is ignored", key));
+            tally.tell(warnings_, path_, "an implausible value is ignored");
         }
+        unknown_.tell(warnings_, path_, "left out");
         if (!unsupported_.empty()) {
             warnings_.push_back(
                 fmt::format("{}: ignored, because not supported: {}", path_.string(), fmt::join(unsupported_, ", ")));
         }
+        settle_transparency();
         return std::move(entries_);
     }
 
 private:
-    void statement(std::string_view keyword) {
-        if (keyword == "newmtl") {
+    void statement(const std::string& key) {
+        if (key == "newmtl") {
             begin_material();
-        } else if (keyword == "Kd" || keyword == "Ke") {
-            need_material();
-            color(keyword == "Kd" ? entry().kd : entry().ke, keyword == "Kd");
-        } else if (keyword.starts_with("Pl_")) {
-            need_material();
-            own_value(keyword);
         } else if (in_material_) {
-            foreign_value(keyword);
+            value(key);
+        } else {
+            unknown_.add(reader_.line(), [&] { return fmt::format("'{}' before any 'newmtl'", reader_.keyword()); });
         }
     }
 
     void begin_material() {
-        const std::string name = decode_name(encode_name(reader_.arguments()));  // as `usemtl` encodes it
+        const std::string name = material_name(reader_.arguments());
         in_material_ = true;
         skips_ = !names_.insert(name).second;
         if (skips_) {
@@ -117,45 +130,24 @@ private:
         entries_.back().line = reader_.line();
     }
 
-    void need_material() const {
-        if (!in_material_) {
-            reader_.fail(fmt::format("'{}' before any 'newmtl'", reader_.keyword()));
-        }
-    }
-
     MtlEntry& entry() { return skips_ ? skipped_ : entries_.back(); }
 
-    /// Three numbers of at least 0, or one for gray; nothing otherwise, with the word in `wrong`.
-    std::optional<glm::vec3> parse_color(std::string_view& wrong) const {
+    /// Three numbers of at least 0, or one for gray.
+    void color(std::optional<glm::vec3>& to, bool is_reflectance) {
         const std::vector<std::string_view> words = split_words(reader_.arguments());
         if (words.size() != 1 && words.size() != 3) {
-            return std::nullopt;
+            return odd(fmt::format("3 numbers (or 1 for gray), got {} words", words.size()));
         }
         glm::vec3 rgb;
         for (int i = 0; i < 3; ++i) {
             const std::string_view word = words[words.size() == 3 ? static_cast<std::size_t>(i) : 0];
-            const std::optional<double> value = parse_number(word);
-            if (!value || *value < 0.0) {
-                wrong = word;
-                return std::nullopt;
+            const std::optional<double> number = parse_number(word);
+            if (!number || *number < 0.0) {
+                return odd(fmt::format("finite numbers of at least 0, got {}", in_quotes(word)));
             }
-            rgb[i] = static_cast<float>(*value);
+            rgb[i] = static_cast<float>(*number);
         }
-        return rgb;
-    }
-
-    void color(std::optional<glm::vec3>& to, bool is_reflectance) {
-        std::string_view wrong;
-        const std::optional<glm::vec3> rgb = parse_color(wrong);
-        if (!rgb && wrong.empty()) {
-            reader_.fail(fmt::format("'{}': expected 3 numbers (or 1 for gray), got {} words", reader_.keyword(),
-                                     split_words(reader_.arguments()).size()));
-        }
-        if (!rgb) {
-            reader_.fail(fmt::format("'{}': expected finite numbers of at least 0, got {}", reader_.keyword(),
-                                     in_quotes(wrong)));
-        }
-        to = is_reflectance ? clamp_reflectance(*rgb) : *rgb;
+        to = is_reflectance ? clamp_reflectance(rgb) : rgb;
     }
 
     glm::vec3 clamp_reflectance(const glm::vec3& rgb) {
@@ -165,68 +157,72 @@ private:
         return glm::min(rgb, glm::vec3(1.0f));
     }
 
-    std::optional<float> parse_within(float least, float most) const {
+    void number(std::optional<float>& to, float least, float most) {
         const std::vector<std::string_view> words = split_words(reader_.arguments());
         const std::optional<double> value = words.size() == 1 ? parse_number(words[0]) : std::nullopt;
-        const bool fits = value && *value >= static_cast<double>(least) && *value <= static_cast<double>(most);
-        return fits ? std::optional(static_cast<float>(*value)) : std::nullopt;
-    }
-
-    void own_value(std::string_view keyword) {
-        const std::string_view value = reader_.arguments();
-        if (keyword == "Pl_two_sided") {
-            if (value != "0" && value != "1") {
-                reader_.fail(fmt::format("'{}': expected 0 or 1, got {}", keyword, in_quotes(value)));
-            }
-            entry().two_sided = value == "1";
-        } else if (keyword == "Pl_surface") {
-            entry().surface = surface_kind(value);
-            if (!entry().surface) {
-                reader_.fail(fmt::format("'{}': expected {}, got {}", keyword, fmt::join(kSurfaceNames, ", "),
-                                         in_quotes(value)));
-            }
-        } else if (const NumberKey* const key = find_key(kOwnNumbers, keyword)) {
-            entry().*key->number = parse_within(key->least, key->most);
-            if (!(entry().*key->number)) {
-                reader_.fail(fmt::format("'{}': expected a number within [{}, {}], got {}", keyword, key->least,
-                                         key->most, in_quotes(value)));
-            }
-        } else {
-            reader_.fail(
-                fmt::format("unknown key '{}': expected Pl_two_sided, Pl_surface, Pl_roughness or Pl_ior", keyword));
+        if (!value || *value < static_cast<double>(least) || *value > static_cast<double>(most)) {
+            return odd(fmt::format("a number {}, got {}",
+                                   most == kAny ? fmt::format("of at least {}", least)
+                                                : fmt::format("within [{}, {}]", least, most),
+                                   in_quotes(reader_.arguments())));
         }
+        to = static_cast<float>(*value);
     }
 
-    /// A key that other programs write for other renderers: invalid values are ignored with a warning.
-    void foreign_value(std::string_view keyword) {
-        if (const NumberKey* const key = find_key(kNumbers, keyword)) {
-            keep(entry().*key->number, parse_within(key->least, key->most));
-        } else if (keyword == "Tr") {
-            const std::optional<float> tr = parse_within(0.0f, 1.0f);
-            if (!entry().d || !tr) {  // d = 1 - Tr; programs agree on the meaning of d only
-                keep(entry().d, tr ? std::optional(1.0f - *tr) : tr);
-            }
-        } else if (keyword == "illum") {
-            const std::optional<float> illum = parse_within(0.0f, 10.0f);
-            keep(entry().illum, illum ? std::optional(static_cast<int>(*illum)) : std::nullopt);
-        } else if (keyword == "Ks" || keyword == "Tf") {
-            std::string_view wrong;
-            const std::optional<glm::vec3> rgb = parse_color(wrong);
-            keep(keyword == "Ks" ? entry().ks : entry().tf, rgb ? std::optional(clamp_reflectance(*rgb)) : rgb);
-        } else if (const MapKey* const image = find_key(kMaps, keyword)) {
+    void value(const std::string& key) {
+        if (const ColorKey* const rgb = find_key(kColors, key)) {
+            color(entry().*rgb->color, key != "ke");
+        } else if (const NumberKey* const scalar = find_key(kNumbers, key)) {
+            number(entry().*scalar->number, scalar->least, scalar->most);
+        } else if (const MapKey* const image = find_key(kMaps, key)) {
             map(entry().*image->map);
-        } else if (std::find(kUnsupported.begin(), kUnsupported.end(), keyword) != kUnsupported.end()) {
-            unsupported_.insert(std::string(keyword));
+        } else if (key == "illum") {
+            std::optional<float> illum;
+            number(illum, 0.0f, 10.0f);
+            entry().illum = illum ? std::optional(static_cast<int>(*illum)) : entry().illum;
+        } else if (key.starts_with("pl_")) {
+            own_word(key);
+        } else if (has(kUnsupported, key)) {
+            if (!is_zero()) {
+                unsupported_.insert(std::string(reader_.keyword()));
+            }
+        } else if (!has(kHarmless, key) && !is_zero()) {
+            unknown_.add(reader_.line(), [&] { return fmt::format("unknown key {}", in_quotes(reader_.keyword())); });
         }
     }
 
-    template <class Value>
-    void keep(std::optional<Value>& to, const std::optional<Value>& value) {
-        if (value) {
-            to = value;
+    /// Keys that this program alone knows.
+    void own_word(const std::string& key) {
+        const std::string_view word = reader_.arguments();
+        if (key == "pl_two_sided") {
+            if (word != "0" && word != "1") {
+                return odd(fmt::format("0 or 1, got {}", in_quotes(word)));
+            }
+            entry().two_sided = word == "1";
+        } else if (key == "pl_surface") {
+            const std::optional<SurfaceKind> kind = surface_kind(word);
+            if (!kind) {
+                return odd(fmt::format("{}, got {}", fmt::join(kSurfaceNames, ", "), in_quotes(word)));
+            }
+            entry().surface = kind;
         } else {
-            odd_[std::string(reader_.keyword())].add(reader_.line());
+            unknown_.add(reader_.line(), [&] {
+                return fmt::format("unknown key '{}': expected Pl_two_sided, Pl_surface, Pl_roughness or Pl_ior",
+                                   reader_.keyword());
+            });
         }
+    }
+
+    /// Whether the arguments are zeros: of a part that is not there.
+    bool is_zero() const {
+        const std::vector<std::string_view> words = split_words(reader_.arguments());
+        return !words.empty() && std::all_of(words.begin(), words.end(),
+                                             [](std::string_view word) { return parse_number(word) == 0.0; });
+    }
+
+    void odd(const std::string& expected) {
+        odd_[std::string(reader_.keyword())].add(
+            reader_.line(), [&] { return fmt::format("'{}': expected {}", reader_.keyword(), expected); });
     }
 
     void map(MtlMap& to) {
@@ -234,11 +230,28 @@ private:
         for (const std::string& option : parsed.unsupported) {
             unsupported_.insert(fmt::format("{} of {}", option, reader_.keyword()));
         }
-        if (parsed.map) {
-            to = parsed.map;
-        } else {
-            odd_[std::string(reader_.keyword())].add(reader_.line());
+        if (!parsed.map) {
+            return odd("the name of an image, got none");
         }
+        to = parsed.map;
+        to.line = reader_.line();
+    }
+
+    /// `Tr` is 1 - d, but MeshLab and others write d under this name. Nobody writes a surface that cannot be seen: in a file where `Tr`
+    /// says 1 of one that is no glass, and nowhere 0, it is d.
+    void settle_transparency() {
+        const auto counts = [](const MtlEntry& entry) { return entry.tr && !entry.d; };
+        bool says_opaque = false;
+        Tally by_one;
+        for (const MtlEntry& entry : entries_) {
+            if (counts(entry) && *entry.tr == 1.0f && !may_be_glass(entry)) by_one.add(entry.line);
+            says_opaque = says_opaque || (counts(entry) && *entry.tr == 0.0f);
+        }
+        const bool is_opacity = by_one.count > 0 && !says_opaque;
+        for (MtlEntry& entry : entries_) {
+            if (counts(entry)) entry.d = is_opacity ? *entry.tr : 1.0f - *entry.tr;
+        }
+        if (is_opacity) by_one.tell(warnings_, path_, "Tr 1 is opaque in this file, as MeshLab writes it");
     }
 
     const std::filesystem::path& path_;
@@ -250,6 +263,7 @@ private:
     bool skips_ = false;
     MtlEntry skipped_;  ///< receives the statements of duplicate materials
     std::map<std::string, Tally> odd_;
+    Tally unknown_;
     std::set<std::string> unsupported_;
 };
 

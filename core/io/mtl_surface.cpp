@@ -35,7 +35,7 @@ SurfaceKind kind_of(const MtlEntry& entry) {
         return SurfaceKind::Conductor;
     }
     const bool lets_through = entry.d.value_or(1.0f) < 1.0f;
-    if (is_glass_model(illum) || (lets_through && (entry.tf || has_index(entry)))) {
+    if (is_glass_model(illum) || (lets_through && may_be_glass(entry))) {
         return SurfaceKind::Dielectric;
     }
     if (is_mirror_model(illum) && strongest(entry.ks) > 0.0f) {
@@ -98,6 +98,10 @@ glm::vec3 albedo_of(const MtlEntry& entry, SurfaceKind kind) {
 }  // namespace
 
 float roughness_of_exponent(float ns) { return std::sqrt(std::sqrt(2.0f / (ns + 2.0f))); }
+
+bool may_be_glass(const MtlEntry& entry) {
+    return is_glass_model(entry.illum.value_or(2)) || entry.tf || has_index(entry);
+}
 
 MaterialDescription surface_of(const MtlEntry& entry, std::vector<std::string>& notes) {
     MaterialDescription material{.name = entry.name};

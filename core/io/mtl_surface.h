@@ -22,6 +22,9 @@ inline constexpr float kLeastRoughIor = 1.05f;
 /// 2)). [Walter et al. 2007, section 5.2]
 float roughness_of_exponent(float ns);
 
+/// Whether the model, the filter color or the index of refraction of an entry are those of glass, if it lets light through.
+bool may_be_glass(const MtlEntry& entry);
+
 /// Kind, colors and numbers of a material, without its textures. `notes` receives the features that are not
 /// supported.
 MaterialDescription surface_of(const MtlEntry& entry, std::vector<std::string>& notes);

@@ -19,7 +19,8 @@ struct MeshGroups {
     std::vector<std::uint32_t> of_triangle{};  ///< index into `names`, parallel to SceneDescription::triangles
 };
 
-/// The elements of the file, with no look at its materials. Throws Error(Input) as load_obj() does.
+/// The elements of the file, with no look at its materials; those of faces far from the origin are read again from an origin near
+/// them. Throws Error(Input) as load_obj() does.
 ObjMesh read_obj_mesh(const std::filesystem::path& path);
 
 /// Reads geometry and materials; the caller sets camera and name.
@@ -30,8 +31,9 @@ ObjMesh read_obj_mesh(const std::filesystem::path& path);
 /// - Faces of a smoothing group (`s`) without normals get those of smooth_normals().
 /// - Triangles too small to have a normal are removed; normals of length 0, or missing at a corner of a triangle, are
 ///   ignored; each with one counted warning. A triangle with a corner without texture coordinates has none.
-/// - `mtllib` may only name files in the folder of the OBJ file or below.
-/// Throws Error(Input) with file and line for malformed statements; see check_obj() and load_mtl().
+/// - Files that it names are looked for as find_named_file() does.
+/// - Geometry far from the origin is moved near it, with a warning.
+/// What cannot be used is left out, with one counted warning of each kind. Throws Error(Input) if there is no face with an area.
 SceneDescription load_obj(const std::filesystem::path& path, MeshGroups* groups = nullptr,
                           MapKd map_kd = MapKd::Multiplies, ObjNormals normals = ObjNormals::Any);
 

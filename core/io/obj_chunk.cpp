@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "core/io/obj_check.h"
+#include "core/io/obj_names.h"
 
 namespace pl {
 
@@ -66,8 +67,8 @@ bool read_index(const char*& at, const char* end, std::int64_t so_far, std::int6
     return error == std::errc{} && value != 0 && value >= -so_far && value <= total;
 }
 
-/// Reads up to `most` numbers, which must fill the line; returns how many, or -1.
-int numbers(const char* at, const char* end, float* values, int most) {
+/// Reads up to `most` numbers, which must fill the line, less `origin`, which are at least three or null; returns how many, or -1.
+int numbers(const char* at, const char* end, float* values, int most, const double* origin = nullptr) {
     int count = 0;
     for (at = skip_blanks(at, end); at != end; at = skip_blanks(at, end)) {
         double value = 0.0;
@@ -76,7 +77,8 @@ int numbers(const char* at, const char* end, float* values, int most) {
         if (count == most || error != std::errc{} || !is_word || !(std::abs(value) <= kLargestCoordinate)) {
             return -1;
         }
-        values[count++] = static_cast<float>(value);
+        values[count] = static_cast<float>(origin != nullptr ? value - origin[count] : value);
+        ++count;
         at = stop;
     }
     return count;
@@ -116,7 +118,7 @@ bool ObjChunkReader::read(std::string_view text, std::int64_t face_count) {
 bool ObjChunkReader::statement(std::string_view keyword, const char* at, const char* end) {
     if (keyword == "v") {
         glm::vec3& position = mesh_.positions[static_cast<std::size_t>(at_.vertices++)];
-        return numbers(at, end, &position.x, 3) == 3;
+        return numbers(at, end, &position.x, 3, &mesh_.origin.x) == 3;
     }
     if (keyword == "f") {
         return face(at, end);
@@ -174,7 +176,7 @@ bool ObjChunkReader::other_statement(std::string_view keyword, const char* at, c
     }
     const std::string arguments(at, end);
     if (keyword == "usemtl") {
-        const std::string name = decode_name(encode_name(arguments));
+        const std::string name = material_name(arguments);
         start_run().material = material_index_.find_or(name, [&] {
             materials_.push_back({name, static_cast<int>(at_.lines)});
         });

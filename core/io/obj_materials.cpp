@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <map>
 #include <set>
-#include <string_view>
-#include <system_error>
 
 #include <fmt/format.h>
 
-#include "core/io/files.h"
+#include "core/base/error.h"
 #include "core/io/line_reader.h"
 #include "core/io/mtl.h"
+#include "core/io/obj_names.h"
 
 namespace pl {
 
@@ -18,48 +17,43 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Path of an `mtllib` argument, which must stay in the scene's folder.
-fs::path library_path(const fs::path& obj, const std::string& name, int line) {
-    const fs::path relative(name);
-    if (!stays_inside(relative)) {
-        fail_at(obj, line,
-                fmt::format("'mtllib': expected a file in the folder of the scene, got {}", in_quotes(name)));
-    }
-    return obj.parent_path() / relative;
+/// One name with blanks if such a file exists, else all names of the statement.
+std::vector<std::string> names_of(const fs::path& folder, const std::string& arguments) {
+    const std::string whole(unquoted(arguments));
+    const NamedFile file = find_named_file(folder, {}, whole);
+    return file.is_there && !file.is_elsewhere ? std::vector{whole} : library_names(arguments);
 }
 
-bool is_there(const fs::path& path) {
-    std::error_code ignored;
-    return fs::exists(path, ignored);
-}
-
-/// One name with blanks if such a file exists, else one name per word.
-std::vector<std::string> library_names(const fs::path& obj, const ObjName& library) {
-    if (!library.name.empty() && is_there(library_path(obj, library.name, library.line))) {
-        return {library.name};
-    }
-    const std::vector<std::string_view> words = split_words(library.name);
-    return {words.begin(), words.end()};
-}
-
-/// Loads all libraries into the scene. Returns the missing ones, for the warning about materials.
+/// Loads all libraries into the scene. Returns those that cannot be read with the reasons, for the warning about materials.
 std::vector<std::string> load_libraries(SceneDescription& scene, const fs::path& obj, const ObjMesh& mesh,
-                                        MapKd map_kd) {
+                                        MapKd map_kd, std::vector<UvScale>& uvs) {
     std::vector<std::string> missing;
-    std::set<std::string> seen;
+    std::set<fs::path> seen;
+    const fs::path folder = obj.parent_path();
     for (const ObjName& library : mesh.libraries) {
-        for (const std::string& name : library_names(obj, library)) {
-            const fs::path path = library_path(obj, name, library.line);
-            if (!seen.insert(name).second) {
+        for (const std::string& name : names_of(folder, library.name)) {
+            const NamedFile file = find_named_file(folder, {}, name);
+            if (!seen.insert(file.path).second) {
                 continue;
             }
-            scene.files.push_back(path);
-            if (!is_there(path)) {
-                missing.push_back(
-                    fmt::format("{}: material file {} not found", place(obj, library.line), in_quotes(name)));
+            scene.files.push_back(file.path);
+            const std::string told = fmt::format("{}: material file {}", place(obj, library.line), in_quotes(name));
+            if (!file.is_there) {
+                missing.push_back(told + (file.is_elsewhere ? " is outside of the scene's folder, where none of its "
+                                                              "name is"
+                                                            : " not found"));
                 continue;
             }
-            load_mtl(path, scene, map_kd);
+            if (file.is_elsewhere) {
+                scene.warnings.push_back(fmt::format("{} is not there: {} is read", told, file.path.string()));
+            }
+            try {
+                const std::vector<UvScale> of_file = load_mtl(file.path, scene, map_kd);
+                uvs.insert(uvs.end(), of_file.begin(), of_file.end());
+            } catch (const Error& error) {
+                if (error.kind() != ErrorKind::Input) throw;
+                missing.emplace_back(error.what());
+            }
         }
     }
     return missing;
@@ -91,12 +85,14 @@ std::size_t faces_of(const ObjMesh& mesh, const MaterialTable& table, std::uint3
 }  // namespace
 
 MaterialTable load_materials(SceneDescription& scene, const fs::path& obj, const ObjMesh& mesh, MapKd map_kd) {
-    std::vector<std::string> reasons = load_libraries(scene, obj, mesh, map_kd);
+    std::vector<UvScale> uvs;
+    std::vector<std::string> reasons = load_libraries(scene, obj, mesh, map_kd, uvs);
     std::map<std::string, std::uint32_t> known;
     for (std::uint32_t i = 0; i < scene.materials.size(); ++i) {
         known.try_emplace(scene.materials[i].name, i);
     }
-    MaterialTable table{.of_name = {}, .fallback = static_cast<std::uint32_t>(scene.materials.size())};
+    MaterialTable table{
+        .of_name = {}, .fallback = static_cast<std::uint32_t>(scene.materials.size()), .uvs = std::move(uvs)};
     for (const ObjName& used : mesh.materials) {
         const auto found = known.find(used.name);
         table.of_name.push_back(found == known.end() ? table.fallback : found->second);

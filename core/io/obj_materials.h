@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/io/map_kd.h"
+#include "core/io/mtl_entry.h"
 #include "core/io/obj_mesh.h"
 #include "core/scene/description.h"
 
@@ -14,6 +15,7 @@ namespace pl {
 struct MaterialTable {
     std::vector<std::uint32_t> of_name;  ///< scene material of each name
     std::uint32_t fallback = 0;          ///< scene material of faces without a name
+    std::vector<UvScale> uvs{};          ///< by scene material; those behind the end have theirs as they are
 
     /// Scene material of a run of faces.
     std::uint32_t of(const ObjFaces::Run& run) const {
@@ -22,8 +24,7 @@ struct MaterialTable {
 };
 
 /// Loads the material libraries of the file into scene.materials and looks up the names that it uses. Missing materials
-/// are replaced by one default material, added only if faces use it, with one warning.
-/// Throws Error(Input) for a library that is outside the scene's folder or malformed.
+/// are replaced by one default material, added only if faces use it, with one warning, which tells of libraries that cannot be read, too.
 MaterialTable load_materials(SceneDescription& scene, const std::filesystem::path& obj, const ObjMesh& mesh,
                              MapKd map_kd);
 

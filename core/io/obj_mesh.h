@@ -69,8 +69,9 @@ enum class ObjNormals : std::uint8_t {
 };
 
 struct ObjMesh {
-    std::vector<glm::vec3> positions;
-    std::vector<glm::vec3> normals;  ///< of any length
+    glm::dvec3 origin{0.0};            ///< of the positions, in coordinates of the file
+    std::vector<glm::vec3> positions;  ///< from `origin`, taken off in doubles
+    std::vector<glm::vec3> normals;    ///< of any length
     ObjNormals lengths = ObjNormals::Any;
     std::vector<glm::vec2> uvs;
     std::vector<ObjFaces> parts;        ///< in the order of the file

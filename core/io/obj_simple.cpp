@@ -75,7 +75,8 @@ bool is_readable(const ObjCounts& total) {
 
 }  // namespace
 
-std::optional<ObjMesh> read_simple_obj(std::string_view text, int threads, std::size_t chunk_bytes) {
+std::optional<ObjMesh> read_simple_obj(std::string_view text, int threads, std::size_t chunk_bytes,
+                                       const glm::dvec3& origin) {
     const std::vector<std::string_view> chunks = split_at_lines(text, chunk_bytes);
     const std::vector<ObjCounts> before = count_before(chunks, threads);
     const ObjCounts& total = before.back();
@@ -83,6 +84,7 @@ std::optional<ObjMesh> read_simple_obj(std::string_view text, int threads, std::
         return std::nullopt;
     }
     ObjMesh mesh;
+    mesh.origin = origin;
     mesh.positions.resize(static_cast<std::size_t>(total.vertices));
     mesh.normals.resize(static_cast<std::size_t>(total.normals));
     mesh.uvs.resize(static_cast<std::size_t>(total.uvs));

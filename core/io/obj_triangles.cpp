@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <unordered_map>
 
 #include "core/base/parallel_chunks.h"
 #include "core/io/tally.h"
@@ -119,6 +120,21 @@ void close_gaps(std::vector<T>& values, const std::vector<std::size_t>& first,
     values.resize(end);
 }
 
+/// Gives triangles whose images are elsewhere texture points of their own.
+void scale_uvs(SceneDescription& scene, const std::vector<UvScale>& uvs) {
+    std::unordered_map<std::uint64_t, std::uint32_t> scaled;  // by material and texture point
+    for (TriangleDescription& triangle : scene.triangles) {
+        if (triangle.material >= uvs.size() || uvs[triangle.material] == UvScale{} || !triangle.has_uvs()) continue;
+        const UvScale& to = uvs[triangle.material];
+        for (int k = 0; k < 3; ++k) {
+            const std::uint64_t key = std::uint64_t{triangle.material} << 32 | triangle.uv[k];
+            const auto [known, is_new] = scaled.try_emplace(key, static_cast<std::uint32_t>(scene.uvs.size()));
+            if (is_new) scene.uvs.push_back(to.scale * scene.uvs[triangle.uv[k]] + to.offset);
+            triangle.uv[k] = known->second;
+        }
+    }
+}
+
 void warn(SceneDescription& scene, const std::vector<PartBuilder>& parts) {
     Tally crossed, no_area, no_normal;
     for (const PartBuilder& part : parts) {
@@ -159,6 +175,10 @@ void add_obj_triangles(SceneDescription& scene, ObjMesh mesh, const MaterialTabl
     close_gaps(scene.triangles, first, parts);
     if (groups != nullptr) {
         close_gaps(groups->of_triangle, first, parts);
+    }
+    if (std::any_of(materials.uvs.begin(), materials.uvs.end(),
+                    [](const UvScale& uvs) { return uvs != UvScale{}; })) {
+        scale_uvs(scene, materials.uvs);
     }
     warn(scene, parts);
 }

@@ -63,8 +63,8 @@ void read_camera(const JsonDocument& file, const LoadSettings& asked, SceneDescr
         file.fail("/camera/fov_deg", fmt::format("expected an angle within (0, 180) degrees, got {}", fov_deg));
     }
     scene.camera = frame_camera(scene, fov_deg);
-    scene.camera.eye = file.vector("/camera/eye").value_or(scene.camera.eye);
-    scene.camera.target = file.vector("/camera/target").value_or(scene.camera.target);
+    scene.camera.eye = file.point("/camera/eye").value_or(scene.camera.eye);
+    scene.camera.target = file.point("/camera/target").value_or(scene.camera.target);
     scene.camera.up = file.vector("/camera/up").value_or(scene.camera.up);
     if (scene.camera.eye == scene.camera.target) {
         file.fail("/camera/eye", "eye and target are the same point");
@@ -132,7 +132,7 @@ void read_settings(const JsonDocument& file, SceneDescription& scene) {
 }  // namespace
 
 SceneDescription load_scene_json(const std::filesystem::path& path, const LoadSettings& asked) {
-    const JsonDocument file(read_text_file(path), path);
+    JsonDocument file(read_text_file(path), path);
     file.object("", {"schema", "name", "obj", "normals", "vertex_colors", "camera", "cameras", "environment",
                      "lights", "materials", "knobs", "settings"});
     const std::optional<std::string> schema = file.text("/schema");
@@ -149,6 +149,7 @@ SceneDescription load_scene_json(const std::filesystem::path& path, const LoadSe
     MeshGroups groups;
     SceneDescription scene =
         load_mesh(path.parent_path() / *obj, needs_groups ? &groups : nullptr, asked, read_normals(file));
+    file.count_from(scene.origin);
     scene.source = path;
     scene.files.push_back(path);
     scene.name = file.text("/name").value_or(path.stem().string());

@@ -44,7 +44,7 @@ public:
     void turn(const std::string& at) {
         file_.object(at, {"groups", "about", "axis", "by_deg"});
         const Selection what = select(at);
-        const glm::dvec3 about = required(at, "about");
+        const glm::dvec3 about = required(at, "about", &JsonDocument::point);
         const glm::dvec3 axis = required(at, "axis");
         const std::optional<float> by_deg = file_.number(at + "/by_deg");
         if (!(glm::length(axis) > 0.0)) {
@@ -63,7 +63,7 @@ public:
     void scale(const std::string& at) {
         file_.object(at, {"groups", "about", "by"});
         const Selection what = select(at);
-        const glm::dvec3 about = required(at, "about");
+        const glm::dvec3 about = required(at, "about", &JsonDocument::point);
         const glm::dvec3 by = required(at, "by");
         for (const float end : {knob_.low, knob_.high}) {
             if (!glm::all(glm::greaterThan(factor_at(by, end), glm::dvec3(0.0)))) {
@@ -83,8 +83,10 @@ private:
         return 1.0 + (static_cast<double>(value) - static_cast<double>(knob_.default_value)) * by;
     }
 
-    glm::dvec3 required(const std::string& at, const char* key) const {
-        const std::optional<glm::vec3> value = file_.vector(at + "/" + key);
+    using Read = std::optional<glm::vec3> (JsonDocument::*)(const std::string&) const;
+
+    glm::dvec3 required(const std::string& at, const char* key, Read read = &JsonDocument::vector) const {
+        const std::optional<glm::vec3> value = (file_.*read)(at + "/" + key);
         if (!value) {
             file_.fail(at + "/groups", fmt::format("expected '{}' [x, y, z] beside it", key));
         }

@@ -23,10 +23,13 @@ SpotFalloff read_falloff(const JsonDocument& file, const std::string& at) {
     file.fail(at + "/falloff", fmt::format("expected cosine or angle, got '{}'", name));
 }
 
-glm::vec3 required_vector(const JsonDocument& file, const std::string& pointer) {
-    const std::optional<glm::vec3> value = file.vector(pointer);
+glm::vec3 required(const JsonDocument& file, const std::string& pointer, const std::optional<glm::vec3>& value) {
     if (!value) file.fail(pointer, "expected three numbers, got none");
     return *value;
+}
+
+glm::vec3 required_vector(const JsonDocument& file, const std::string& pointer) {
+    return required(file, pointer, file.vector(pointer));
 }
 
 void read_direction(const JsonDocument& file, const std::string& pointer, PunctualLightDescription& light) {
@@ -58,7 +61,7 @@ PunctualLightDescription read_punctual_light(const JsonDocument& file, const std
     light.intensity = required_vector(file, strength);
     if (glm::any(glm::lessThan(light.intensity, glm::vec3(0.0f))))
         file.fail(strength, "expected numbers of at least 0");
-    if (!is_far) light.position = required_vector(file, at + "/position");
+    if (!is_far) light.position = required(file, at + "/position", file.point(at + "/position"));
     if (light.kind != PunctualKind::Point) read_direction(file, at + "/direction", light);
     if (light.kind == PunctualKind::Spot) read_cones(file, at, light);
     return light;

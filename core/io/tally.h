@@ -12,23 +12,38 @@ namespace pl {
 struct Tally {
     std::size_t count = 0;
     int first_line = 0;
+    std::string first;  ///< what is particular to the first one
 
     void add(int line) {
         first_line = count == 0 ? line : first_line;
         ++count;
     }
 
+    /// Adds one of any line; `particular` gives its text.
+    template <class Particular>
+    void add(int line, Particular&& particular) {
+        if (count == 0 || line < first_line) {
+            first_line = line;
+            first = particular();
+        }
+        ++count;
+    }
+
     /// Adds the statements of lines below those of this one.
     void add(const Tally& later) {
-        first_line = count == 0 ? later.first_line : first_line;
+        if (count == 0) {
+            first_line = later.first_line;
+            first = later.first;
+        }
         count += later.count;
     }
 
-    /// Appends "file:line: what (3 in all)" if anything was counted.
+    /// Appends "file:line: first: what (3 in all)" if anything was counted.
     void tell(std::vector<std::string>& warnings, const std::filesystem::path& path, const std::string& what) const {
         if (count > 0) {
-            warnings.push_back(path.string() + ":" + std::to_string(first_line) + ": " + what + " (" +
-                               std::to_string(count) + " in all)");
+            warnings.push_back(path.string() + ":" + std::to_string(first_line) + ": " +
+                               (first.empty() ? "" : first + ": ") + what + " (" + std::to_string(count) +
+                               " in all)");
         }
     }
 };

@@ -114,6 +114,10 @@ void compare_readers(std::string_view text) {
     for (const ObjMesh& other : {*whole, read_any_obj(text, "s.obj")})
         if (const std::string difference = obj_difference(*chunks, other); !difference.empty())
             fail(("readers that differ in " + difference).c_str());
+    const glm::dvec3 origin(391240.0, -1e15, 0.125);
+    const std::string difference =
+        obj_difference(*read_simple_obj(text, 1, kSmallChunk, origin), read_any_obj(text, "s.obj", origin));
+    if (!difference.empty()) fail(("readers from another origin that differ in " + difference).c_str());
 }
 
 void run_obj(std::string_view bytes) {

@@ -9,6 +9,8 @@
 #include "core/io/gltf/cameras.h"
 #include "core/io/gltf/lights.h"
 #include "core/io/gltf/triangles.h"
+#include "core/scene/far_origin.h"
+#include "core/scene/pack_scene.h"
 
 namespace pl {
 namespace {
@@ -43,14 +45,14 @@ void note_the_rest(GltfFile& file) {
                             file.path().string(), reasons.empty() ? "" : "; ", fmt::join(reasons, "; ")));
 }
 
-}  // namespace
-
-SceneDescription load_gltf(const std::filesystem::path& path, MeshGroups* groups,
+SceneDescription load_from(const glm::dvec3& origin, const std::filesystem::path& path, MeshGroups* groups,
                            std::uint64_t most_copied_triangles) {
     GltfFile file(path);
     SceneDescription scene;
     scene.source = path;
-    const GltfNodes nodes = read_nodes(file);
+    scene.origin = origin;
+    tell_origin(scene);
+    const GltfNodes nodes = read_nodes(file, origin);
     add_gltf_triangles(file, nodes, read_surfaces(file, scene), scene, groups, most_copied_triangles);
     if (scene.triangles.empty()) fail_empty(file);
     add_gltf_cameras(file, nodes, scene);
@@ -59,6 +61,18 @@ SceneDescription load_gltf(const std::filesystem::path& path, MeshGroups* groups
     file.notes().tell(scene.warnings);
     scene.files = file.files();
     return scene;
+}
+
+}  // namespace
+
+SceneDescription load_gltf(const std::filesystem::path& path, MeshGroups* groups,
+                           std::uint64_t most_copied_triangles) {
+    SceneDescription scene = load_from(glm::dvec3(0.0), path, groups, most_copied_triangles);
+    const Bounds bounds = bounds_of(scene);
+    const glm::dvec3 origin = far_origin(glm::dvec3(bounds.low), glm::dvec3(bounds.high));
+    if (origin == glm::dvec3(0.0)) return scene;
+    if (groups != nullptr) *groups = {};
+    return load_from(origin, path, groups, most_copied_triangles);
 }
 
 }  // namespace pl

@@ -16,6 +16,7 @@ namespace pl {
 /// - Skins are in the pose of the nodes, morph targets and animations at rest.
 /// - Materials become the nearest of the renderer's, see docs/materials.md. Content that has no counterpart is told once
 ///   for each kind, in `warnings`.
+/// - A scene far from the origin is moved near it, with a warning.
 /// - URIs may only name data and files in the folder of the file or below.
 /// Throws Error(Input) with file, line and JSON pointer (.gltf, the JSON of a .glb) or byte (.glb): malformed JSON, indices,
 /// counts, ranges or types that break the format, nodes in a circle, compressed meshes, no triangle at all.

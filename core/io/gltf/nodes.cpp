@@ -139,6 +139,10 @@ glm::dmat4 transform_of(const glm::dvec3& move, const glm::dquat& turn, const gl
     return matrix;
 }
 
-GltfNodes read_nodes(const GltfFile& file) { return NodeReader(file).run(); }
+GltfNodes read_nodes(const GltfFile& file, const glm::dvec3& origin) {
+    GltfNodes nodes = NodeReader(file).run();
+    for (GltfNode& node : nodes.all) node.to_world[3] -= glm::dvec4(origin, 0.0);
+    return nodes;
+}
 
 }  // namespace pl

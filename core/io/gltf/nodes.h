@@ -28,7 +28,7 @@ struct GltfNodes {
 /// Scales, then turns, then moves. The quaternion has a length above 0.
 glm::dmat4 transform_of(const glm::dvec3& move, const glm::dquat& turn, const glm::dvec3& scale);
 
-/// Throws Error(Input) for nodes with two parents or in a circle.
-GltfNodes read_nodes(const GltfFile& file);
+/// Places are relative to `origin`. Throws Error(Input) for nodes with two parents or in a circle.
+GltfNodes read_nodes(const GltfFile& file, const glm::dvec3& origin = glm::dvec3(0.0));
 
 }  // namespace pl

@@ -106,14 +106,14 @@ void settle_normals(bool is_flat, ObjMesh& mesh) {
     smooth_normals(mesh);
 }
 
-/// `mesh` has positions and normals.
+/// `mesh` has positions, their origin, and normals.
 template <class Mesh>
 void move(const MitsubaObject& shape, const glm::dmat4& to_world, Mesh& mesh) {
     const glm::dmat3 m(to_world);
     glm::dmat3 cofactors(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
     const bool is_mirrored = glm::dot(cofactors[0], m[0]) < 0.0;
     for (glm::vec3& position : mesh.positions) {
-        const glm::dvec3 moved(to_world * glm::dvec4(glm::dvec3(position), 1.0));
+        const glm::dvec3 moved(to_world * glm::dvec4(mesh.origin + glm::dvec3(position), 1.0));
         if (!(std::abs(moved.x) <= kLargestCoordinate && std::abs(moved.y) <= kLargestCoordinate &&
               std::abs(moved.z) <= kLargestCoordinate)) {
             shape.fail(fmt::format("expected coordinates up to {} in the world, got {}, {}, {}", kLargestCoordinate,
@@ -121,6 +121,7 @@ void move(const MitsubaObject& shape, const glm::dmat4& to_world, Mesh& mesh) {
         }
         position = glm::vec3(moved);
     }
+    mesh.origin = glm::dvec3(0.0);
     for (glm::vec3& normal : mesh.normals) {
         const glm::dvec3 turned = (is_mirrored ? -1.0 : 1.0) * (cofactors * glm::dvec3(normal));
         const double length = glm::length(turned);

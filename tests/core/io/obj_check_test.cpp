@@ -1,4 +1,4 @@
-// Malformed files: a message with file and line, never a crash. Most effective with sanitizers.
+// Malformed files: what can be used is shown, the rest is told with file and line, never a crash. Most effective with sanitizers.
 #include <random>
 #include <string>
 #include <vector>
@@ -59,6 +59,19 @@ std::string load_text(const std::string& text) {
     return input_error([&] { load_scene(path, folder.path()); });
 }
 
+struct Loaded {
+    std::string told;  ///< all warnings
+    std::size_t triangles = 0;
+};
+
+Loaded load_with_warnings(const std::string& text) {
+    const TemporaryFolder folder;
+    const SceneDescription scene = load_scene(folder.write("bad.obj", text).string(), folder.path());
+    Loaded loaded{.told = {}, .triangles = scene.triangles.size()};
+    for (const std::string& warning : scene.warnings) loaded.told += warning + "\n";
+    return loaded;
+}
+
 const std::string kTriangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
 
 }  // namespace
@@ -106,42 +119,68 @@ TEST_CASE("Files with random damage load or are refused") {
     CHECK(loaded < kTrials);
 }
 
-TEST_CASE("Indices out of range are refused with file and line") {
+TEST_CASE("A face with an index that is none is left out, or shown without normals and texture, with file and line") {
     struct Case {
         std::string corner;
         std::string told;
+        bool is_shown;
     };
     const Case sample = GENERATE(
-        Case{"0", "vertex index 0, indices start at 1"}, Case{"4", "vertex index 4 is out of range, the file has 3"},
-        Case{"-4", "vertex index -4 is out of range, 3 precede the face"},
-        Case{"2147483647", "vertex index 2147483647 is out"}, Case{"2147483648", "vertex index 2147483648 is out"},
-        Case{"-2147483649", "-2147483649 is out"}, Case{"4294967297", "vertex index 4294967297 is out"},
-        Case{"99999999999", "vertex index 99999999999 is out"},
-        Case{"99999999999999999999999", "is not an index of a vertex"}, Case{"1//0", "normal index 0"},
-        Case{"1//2", "normal index 2 is out of range, the file has 1"}, Case{"1//-2", "normal index -2 is out"},
-        Case{"1/1", "texture point index 1 is out of range, the file has 0"},
-        Case{"1/99999999999/1", "texture point index 99999999999"}, Case{"1.5", "'1.5' is not an index"},
-        Case{"x", "'x' is not an index"}, Case{"+-1", "'+-1' is not an index"}, Case{"1/", "expected a face corner"},
-        Case{"/1", "expected a face corner"}, Case{"1//", "expected a face corner"},
-        Case{"1/1/1/1", "'1/1' is not an index of a normal"}, Case{"0x1", "'0x1' is not an index"});
+        Case{"0", "vertex index 0, indices start at 1", false},
+        Case{"4", "vertex index 4 is out of range, the file has 3", false},
+        Case{"-4", "vertex index -4 is out of range, 3 precede the face", false},
+        Case{"2147483646", "vertex index 2147483646 is out", false},
+        Case{"2147483647", "vertex index 2147483647 is out", false},
+        Case{"2147483648", "vertex index 2147483648 is out", false}, Case{"-2147483649", "-2147483649 is out", false},
+        Case{"4294967297", "vertex index 4294967297 is out", false},
+        Case{"99999999999", "vertex index 99999999999 is out", false},
+        Case{"99999999999999999999999", "is not an index of a vertex", false},
+        Case{"1.5", "'1.5' is not an index", false}, Case{"x", "'x' is not an index", false},
+        Case{"+-1", "'+-1' is not an index", false}, Case{"/1", "expected a face corner", false},
+        Case{"0x1", "'0x1' is not an index", false}, Case{"1//0", "normal index 0", true},
+        Case{"1//2", "normal index 2 is out of range, the file has 1", true},
+        Case{"1//-2", "normal index -2 is out", true},
+        Case{"1/1", "texture point index 1 is out of range, the file has 0", true},
+        Case{"1/99999999999/1", "texture point index 99999999999", true},
+        Case{"1/1/1/1", "'1/1' is not an index of a normal", true});
     INFO(sample.corner);
-    const std::string text =
-        "# three\n\n" + kTriangle + "vn 0 0 1\nf 1 2 3\nf 1 2 \\\n" + sample.corner + "\nf 1 2 3\n";
-    CHECK_THAT(load_text(text), contains("bad.obj:8: ") && contains(sample.told));
+    const Loaded loaded = load_with_warnings("# three\n\n" + kTriangle + "vn 0 0 1\nf 1 2 3\nf 3 2 \\\n" +
+                                             sample.corner + "\nf 1 2 3\n");
+    CHECK_THAT(loaded.told,
+               contains("bad.obj:8: ") && contains(sample.told) &&
+                   contains(sample.is_shown ? ": this face is shown without its normals or texture points (1 in all)"
+                                            : ": this face is left out (1 in all)"));
+    CHECK(loaded.triangles == (sample.is_shown ? 3 : 2));
+    CHECK_THAT(load_text(kTriangle + "f 1 2 4\n"),
+               contains("bad.obj: no faces") && contains("bad.obj:4: vertex index 4"));
 }
 
 TEST_CASE("The first index that points past the last vertex is named") {
-    CHECK_THAT(load_text("f 1 2 3\nf 1 2 9\nf 1 2 7\nf 3 2 4\n" + kTriangle), contains("bad.obj:2: vertex index 9"));
+    const Loaded loaded = load_with_warnings("f 1 2 3\nf 1 2 9\nf 1 2 7\nf 3 2 4\n" + kTriangle);
+    CHECK_THAT(loaded.told, contains("bad.obj:2: vertex index 9") && contains("this face is left out (3 in all)"));
+    CHECK(loaded.triangles == 1);
 }
 
-TEST_CASE("Numbers that are none are refused with file and line") {
+TEST_CASE("A corner may end with slashes without an index") {
+    const std::string face =
+        GENERATE(as<std::string>{}, "f 1// 2// 3//", "f 1/ 2/ 3/", "f 1/1/ 2/1/ 3/1/", "f 1//1 2// 3/1/");
+    INFO(face);
+    const Loaded loaded = load_with_warnings(kTriangle + "vt 0 0\nvn 0 0 1\n" + face + "\n");
+    CHECK(loaded.triangles == 1);
+    CHECK_THAT(loaded.told, !contains("left out"));
+}
+
+TEST_CASE("Numbers that are none leave out their element and the faces that use it, with file and line") {
     const std::string word =
         GENERATE(as<std::string>{}, "nan", "NaN", "-nan", "inf", "-infinity", "1e400", "-1e39", "1,5", "0x10", "1e",
                  "+-1", "--1", "1.2.3", "abc", "1e18000000000000000000000", "2e18", "1;", "'1'");
     INFO(word);
-    const std::string keyword = GENERATE("v", "vn");
-    CHECK_THAT(load_text(kTriangle + "\r\n" + keyword + " 0 " + word + " 0\nf 1 2 3\n"),
-               contains("bad.obj:5: '" + keyword + "'") && contains("got '" + word + "'"));
+    const std::string keyword = GENERATE("v", "vn", "vt");
+    const Loaded loaded = load_with_warnings(kTriangle + "\r\n" + keyword + " 0 " + word +
+                                             " 0\nf 1 2 3\nf 1 4 2\nf 1//1 2//1 3//1\nf 1/1 2/1 3/1\n");
+    CHECK_THAT(loaded.told, contains("bad.obj:5: '" + keyword + "'") && contains("got '" + word + "': this ") &&
+                                contains("is left out (1 in all)"));
+    CHECK(loaded.triangles == 3);
 }
 
 TEST_CASE("Vertices with too few numbers are refused") {
@@ -201,17 +240,36 @@ TEST_CASE("Missing files and folders in place of files are named") {
     CHECK_THAT(input_error([&] { load_scene("/dev/null", folder.path()); }), contains("/dev/null: expected an .obj"));
 }
 
-TEST_CASE("Material libraries outside of the scene's folder are refused") {
-    const std::string name =
-        GENERATE(as<std::string>{}, "../m.mtl", "/etc/passwd", "sub/../../m.mtl", "a.mtl ../b.mtl");
-    CHECK_THAT(load_text(kTriangle + "mtllib " + name + "\nf 1 2 3\n"),
-               contains("bad.obj:4: 'mtllib': expected a file in the folder"));
+TEST_CASE("Material libraries outside of the scene's folder are not read, but one of their name in it is") {
+    const TemporaryFolder folder;
+    folder.write("m.mtl", "newmtl m\nKd 1 0 0\n");
+    const std::string library = GENERATE(as<std::string>{}, "../m.mtl", "/etc/passwd", "sub/../../m.mtl",
+                                         "n.mtl ../m.mtl", "C:\\m.mtl", "\"..\\m.mtl\"");
+    INFO(library);
+    const std::string text = "mtllib " + library + "\nusemtl m\n" + kTriangle + "f 1 2 3\n";
+    const auto load = [&](const std::string& name) {
+        const SceneDescription scene = load_scene(folder.write(name, text).string(), folder.path());
+        CHECK(scene.triangles.size() == 1);
+        std::string told;
+        for (const std::string& warning : scene.warnings) told += warning + "\n";
+        return std::pair(scene.materials.at(scene.triangles[0].material).name, told);
+    };
+    const auto [outside, told] = load("sub/s.obj");
+    CHECK(outside == "default");
+    CHECK_THAT(told, contains("s.obj:1: material file") && contains("is outside of the scene's folder"));
+    const auto [inside, told_inside] = load("s.obj");
+    CHECK(inside == (library == "/etc/passwd" ? "default" : "m"));
+    CHECK_THAT(told_inside, contains("s.obj:1: material file"));
 }
 
-TEST_CASE("A material library that is a directory is refused") {
+TEST_CASE("A material library that is no text is told, and the scene shown") {
     const TemporaryFolder folder;
-    std::filesystem::create_directories(folder.path() / "m.mtl");
-    const std::string path = folder.write("s.obj", "mtllib m.mtl\n" + kTriangle + "f 1 2 3\n").string();
-    CHECK_THAT(input_error([&] { load_scene(path, folder.path()); }),
-               contains("m.mtl: cannot be read: it is a directory"));
+    std::filesystem::create_directories(folder.path() / "d.mtl");
+    folder.write("b.mtl", "newmtl a\x01");
+    const auto told = [&](const std::string& library) {
+        const std::string text = "mtllib " + library + "\n" + kTriangle + "f 1 2 3\n";
+        return load_scene(folder.write("s.obj", text).string(), folder.path()).warnings.at(0);
+    };
+    CHECK_THAT(told("d.mtl"), contains("material file 'd.mtl' not found; 1 faces are shown in the default color"));
+    CHECK_THAT(told("b.mtl"), contains("b.mtl:1: control character 0x01") && contains("; 1 faces are shown"));
 }

@@ -34,8 +34,13 @@ bool check_same(const std::string& text) {
         REQUIRE(parts.has_value() == simple.has_value());
         if (parts) CHECK(test::obj_difference(*parts, *simple).empty());
     }
-    if (simple) CHECK(test::obj_difference(*simple, read_any_obj(text, "s.obj")).empty());
-    return simple.has_value();
+    if (!simple) return false;
+    CHECK(test::obj_difference(*simple, read_any_obj(text, "s.obj")).empty());
+    const glm::dvec3 origin(391240.0, -0.125, 1e9);
+    const std::optional<ObjMesh> moved = read_simple_obj(text, 2, kObjChunk, origin);
+    REQUIRE(moved);
+    CHECK(test::obj_difference(*moved, read_any_obj(text, "s.obj", origin)).empty());
+    return true;
 }
 
 std::vector<fs::path> obj_files() {

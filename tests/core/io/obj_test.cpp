@@ -4,6 +4,8 @@
 #include <cmath>
 #include <fstream>
 
+#include <fmt/format.h>
+
 #include "core/io/frame_camera.h"
 #include "core/io/load_scene.h"
 #include "core/io/mtl.h"
@@ -187,6 +189,56 @@ TEST_CASE("Several libraries, and names of libraries with blanks") {
     CHECK(scene.triangles[0].material == 1);
 }
 
+TEST_CASE("Names in quotes, and names of libraries as programs write them") {
+    const TemporaryFolder folder;
+    folder.write("model 3d.mtl", "newmtl \"a b\"\nKd 1 0 0\nnewmtl c\nKd 0 1 0\n");
+    folder.write("sub/b.mtl", "newmtl d\nKd 0 0 1\n");
+    const std::string libraries =
+        GENERATE(as<std::string>{}, "mtllib \"model 3d.mtl\"\nmtllib sub\\b.mtl\n",
+                 "mtllib \"model 3d.mtl\" 'sub/b.mtl'  # two\n", "mtllib model 3d.mtl sub\\b.mtl \r\n",
+                 "mtllib ./sub/b.mtl\t\nmtllib model 3d.mtl # here\n");
+    INFO(libraries);
+    const std::string faces =
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a b\nf 1 2 3\nusemtl \"c\"\nf 1 2 3\nusemtl 'd' # e\nf 1 2 3";
+    for (const std::string& text : {libraries + faces, faces + "\n" + libraries}) {
+        const SceneDescription scene = load_obj(folder.write("s.obj", text));
+        CHECK(scene.warnings.empty());
+        REQUIRE(scene.triangles.size() == 3);
+        for (int i = 0; i < 3; ++i)
+            CHECK(scene.materials.at(scene.triangles[static_cast<std::size_t>(i)].material).albedo[i] == 1.0f);
+    }
+}
+
+TEST_CASE(
+    "A file without the normals and texture points that its faces name is shown without them, with one warning") {
+    const SceneDescription scene = load("mtllib m.mtl\nv -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nvn 0 0 1\nusemtl red\n"
+                                        "f 1/1/7 2/2/7 3/3/7 4/4/7\nf 1/1/1 2/2/1 3/3/1\ns 1\nf 1//1 2//1 3//9\n");
+    REQUIRE(scene.triangles.size() == 4);
+    CHECK(scene.triangles[0].normal == glm::uvec3(TriangleDescription::kNoNormal));
+    CHECK(scene.triangles[0].uv == glm::uvec3(TriangleDescription::kNoUv));
+    CHECK(scene.triangles[2].normal == glm::uvec3(0));
+    CHECK(scene.triangles[3].normal.x != TriangleDescription::kNoNormal);  // of its smoothing group
+    REQUIRE(scene.warnings.size() == 1);
+    CHECK_THAT(scene.warnings[0],
+               contains("s.obj:8: normal index 7 is out of range, the file has 1: this face is shown "
+                        "without its normals or texture points (3 in all)"));
+}
+
+TEST_CASE("The options -s and -o of a material's image move its texture coordinates alone") {
+    const TemporaryFolder folder;
+    folder.write("m.mtl", "newmtl a\nmap_Kd -o 0.25 0 0 -s 2 3 1 a.png\nnewmtl b\nmap_Kd a.png\n");
+    const SceneDescription scene =
+        load_obj(folder.write("s.obj", "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0.5 1\n"
+                                       "usemtl a\nf 1/1 2/2 3/3\nf 3/3 2/2 1/1\nusemtl b\nf 1/1 2/2 3/3\n"));
+    REQUIRE(scene.uvs.size() == 6);
+    const auto uv = [&](std::size_t triangle, int corner) { return scene.uvs[scene.triangles[triangle].uv[corner]]; };
+    CHECK(uv(0, 0) == glm::vec2(0.25f, 0.0f));
+    CHECK(uv(0, 1) == glm::vec2(2.25f, 0.0f));
+    CHECK(uv(0, 2) == glm::vec2(1.25f, 3.0f));
+    CHECK(uv(1, 0) == uv(0, 2));
+    CHECK(uv(2, 2) == glm::vec2(0.5f, 1.0f));
+}
+
 TEST_CASE("Entries that cannot be used are left out with one counted warning each") {
     const SceneDescription scene =
         load("mtllib m.mtl\nusemtl red\nv 0 0 0 1\nv 1 0 0 0.5 0.5 0.5\nv 0 1 0 1\nv 2 0 0\n"
@@ -294,6 +346,35 @@ TEST_CASE("A material without a name is that of a usemtl without one") {
         load("mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl\nf 1 2 3\n", "newmtl\nKd 0.1 0.2 0.3\n");
     CHECK(scene.materials.at(scene.triangles.at(0).material).albedo == glm::vec3(0.1f, 0.2f, 0.3f));
     CHECK(scene.warnings.empty());
+}
+
+TEST_CASE("Geometry far from the origin keeps its shape: it is moved in doubles, with one warning") {
+    const std::string rest = "usemtl red\nvn 0 0 1\nf 1//1 2//1 3//1 4//1\nv 0 0 0\n";
+    const auto house = [&](double x, double y, const std::string& more) {
+        std::string text = "mtllib m.mtl\n" + more;
+        for (const glm::dvec2 corner : {glm::dvec2(0.37, 0.81), {0.57, 0.81}, {0.57, 10.81}, {0.37, 10.81}})
+            text += fmt::format("v {:.3f} {:.3f} 30\n", x + corner.x, y + corner.y);
+        return load(text + rest);
+    };
+    for (const std::string more : {"", "s off \\\n\n"}) {  // by either reader
+        const SceneDescription scene = house(391234.0, 5820123.0, more);
+        CHECK(scene.origin.x == Approx(391234.0).margin(8.0));
+        CHECK(scene.origin.y == Approx(5820123.0).margin(16.0));
+        CHECK(scene.origin.z == 0.0);
+        REQUIRE(scene.triangles.size() == 2);
+        CHECK(test::area(scene) == Approx(2.0).epsilon(1e-6));
+        CHECK((scene.positions[1].x - scene.positions[0].x) == Approx(0.2f).epsilon(1e-5));
+        CHECK(scene.origin.x + static_cast<double>(scene.positions[0].x) == Approx(391234.37).epsilon(1e-12));
+        CHECK(scene.positions[0].z == 30.0f);
+        CHECK(scene.normals[0] == glm::vec3(0, 0, 1));
+        REQUIRE(scene.warnings.size() == 1);
+        CHECK_THAT(scene.warnings[0], contains("s.obj: far from the origin, moved by"));
+        // Near the origin every bit is kept.
+        const SceneDescription near = house(0.0, 0.0, more);
+        CHECK(near.origin == glm::dvec3(0.0));
+        CHECK(near.positions[0] == glm::vec3(0.37f, 0.81f, 30.0f));
+        CHECK(near.warnings.empty());
+    }
 }
 
 TEST_CASE("Files in UTF-16 are read, of either order of bytes", "[hard]") {

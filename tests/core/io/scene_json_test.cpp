@@ -110,6 +110,37 @@ TEST_CASE("An up vector along the view is replaced with a warning") {
     CHECK_THAT(scene.warnings[0], contains("up vector"));
 }
 
+TEST_CASE("Points of a scene file are in the coordinates of a mesh far from the origin") {
+    const TemporaryFolder folder;
+    folder.write("s.obj",
+                 "o a\nv 391234.37 5820123.81 30\nv 391234.57 5820123.81 30\nv 391234.57 5820133.81 30\nf 1 2 3\n");
+    const SceneDescription scene = load_scene(
+        folder
+            .write("s.json",
+                   "{\"schema\": \"pathlight.scene/1\", \"obj\": \"s.obj\", \"camera\": {\"eye\": [391234.4, "
+                   "5820120.7, 60], \"target\": [391234.5, 5820128.3, 30]}, \"cameras\": [{\"eye\": [391234.25, "
+                   "5820120.5, 60]}], \"lights\": [{\"type\": \"point\", \"intensity\": [1, 1, 1], "
+                   "\"position\": [391234.4, 5820124.6, 40]}], \"knobs\": {\"k\": {\"default\": 0, \"range\": [0, "
+                   "1], \"does\": \"grows\", \"scales\": [{\"groups\": [\"a\"], \"about\": [391234.37, "
+                   "5820123.81, 30], \"by\": [1, 0, 0]}]}}}")
+            .string(),
+        folder.path(), {.knobs = {{"k", 1.0f}}});
+    const auto place = [&](const glm::vec3& point) { return scene.origin + glm::dvec3(point); };
+    const auto is_near = [&](const glm::vec3& point, const glm::dvec3& wanted) {
+        return glm::length(place(point) - wanted) < 1e-5;
+    };
+    CHECK(scene.origin.x > 391000.0);
+    CHECK(is_near(scene.camera.eye, {391234.4, 5820120.7, 60.0}));
+    CHECK(is_near(scene.camera.target, {391234.5, 5820128.3, 30.0}));
+    CHECK(is_near(scene.cameras.at(0).camera.eye, {391234.25, 5820120.5, 60.0}));
+    CHECK(is_near(scene.punctual_lights.at(0).position, {391234.4, 5820124.6, 40.0}));
+    CHECK(is_near(scene.positions.at(0), {391234.37, 5820123.81, 30.0}));
+    CHECK(is_near(scene.positions.at(1), {391234.77, 5820123.81, 30.0}));
+    CHECK(std::count_if(scene.warnings.begin(), scene.warnings.end(), [](const std::string& warning) {
+              return warning.find("far from the origin") != std::string::npos;
+          }) == 1);
+}
+
 TEST_CASE("Unknown keys are answered with the nearest known one, with file and line") {
     CHECK_THAT(refused(",\n\n\"camra\": {}"), contains("scene.json:5: 'camra': unknown key, did you mean 'camera'?"));
     CHECK_THAT(refused(",\n\"camera\": {\n\"fov\": 3}"),

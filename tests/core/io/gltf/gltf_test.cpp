@@ -53,6 +53,20 @@ TEST_CASE("gltf: a triangle, as text and as a .glb, of any suffix") {
     }
 }
 
+TEST_CASE("gltf: meshes that nodes place far from the origin are moved near it in doubles") {
+    GltfMaker file;
+    file.triangle();
+    file.root["nodes"][0]["translation"] = {391234.37, 5820123.81, -3.5};
+    const SceneDescription scene = load_gltf(file);
+    CHECK(glm::length(scene.origin - glm::dvec3(391235.0, 5820124.0, 0.0)) < 2.0);
+    CHECK(scene.origin.z == 0.0);
+    for (std::size_t i = 0; i < 3; ++i) {
+        const glm::dvec3 wanted = glm::dvec3(kTriangle[i]) + glm::dvec3(391234.37, 5820123.81, -3.5);
+        CHECK(glm::length(scene.origin + glm::dvec3(corners(scene, 0)[i]) - wanted) < 1e-6);
+    }
+    CHECK(is_told(scene, "far from the origin"));
+}
+
 TEST_CASE("gltf: buffers in files of the folder, with escapes in their names") {
     GltfMaker file;
     file.triangle();
