@@ -226,6 +226,7 @@ struct SceneDescription {
     std::string name;
     std::filesystem::path source;              ///< the file that was opened, for messages
     std::vector<std::filesystem::path> files;  ///< looked for by the loaders, without images, which have a `source`
+    glm::dvec3 origin{0.0};  ///< of all coordinates here in those of the file: see far_origin()
     std::vector<glm::vec3> positions;
     /// Colors of the vertices at `positions`, each channel in [0, 1], which multiply what albedo textures multiply; or none.
     std::vector<glm::vec3> vertex_colors;
