@@ -153,7 +153,10 @@ Snapshot picture_as_loaded(SceneDescription scene, Estimator estimator) {
     return picture_of(scene, estimator, 24, 64);
 }
 
-void check_sizes(const SceneDescription& scene, std::span<const Estimator> estimators, double tolerance) {
+/// What is learned differs by rounding, and then chooses other paths: those pictures differ by their noise.
+double tolerance_of(Estimator estimator) { return estimator.method == MethodId::Default ? 0.002 : 0.15; }
+
+void check_sizes(const SceneDescription& scene, std::span<const Estimator> estimators) {
     for (const Estimator estimator : estimators) {
         const Snapshot expected = picture_as_loaded(scene, estimator);
         for (int exponent = -9; exponent <= 8; ++exponent) {
@@ -161,7 +164,7 @@ void check_sizes(const SceneDescription& scene, std::span<const Estimator> estim
             const float factor = static_cast<float>(std::pow(10.0, exponent));
             const Snapshot picture = picture_as_loaded(scaled(scene, factor), estimator);
             INFO(scene.name << " times 1e" << exponent << ", " << estimator);
-            CHECK(within(tile_difference(expected, picture), tolerance));
+            CHECK(within(tile_difference(expected, picture), tolerance_of(estimator)));
             CHECK(count_broken(picture) == 0);
         }
     }
@@ -172,15 +175,14 @@ void check_sizes(const SceneDescription& scene, std::span<const Estimator> estim
 // Factors that are no powers of two round all lengths: few paths of 37 000 go another way.
 TEST_CASE("Every size from 1e-9 to 1e8 of a scene shows the same picture", "[hard]") {
     const std::array estimators{kEstimators[1]};
-    check_sizes(shipped_scene("cornell"), estimators, 0.02);
-    check_sizes(cornell_with_delta_lights(), estimators, 0.02);
-    check_sizes(cornell_with_stained_glass(), estimators, 0.04);
+    for (const SceneDescription& scene :
+         {shipped_scene("cornell"), cornell_with_delta_lights(), cornell_with_stained_glass()})
+        check_sizes(scene, estimators);
 }
 TEST_CASE("Every size from 1e-9 to 1e8 of a scene shows the same picture by every method", "[hard][merge]") {
-    check_sizes(shipped_scene("cornell"), kEstimators, 0.04);
-    check_sizes(cornell_with_stained_glass(), kEstimators, 0.08);
-    for (const char* name : {"lens", "two-lights", "textured-room"})
-        check_sizes(shipped_scene(name), kEstimators, 0.08);
+    for (const char* name : {"cornell", "lens", "two-lights", "textured-room"})
+        check_sizes(shipped_scene(name), kEstimators);
+    check_sizes(cornell_with_stained_glass(), kEstimators);
 }
 
 TEST_CASE("A closed room keeps its light a million of its sizes from the origin", "[hard]") {
