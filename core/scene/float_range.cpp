@@ -149,6 +149,8 @@ void move_into_float_range(SceneDescription& scene) {
     const glm::vec3 origin(far_origin(glm::dvec3(bounds.low), glm::dvec3(bounds.high)));
     if (origin != glm::vec3(0.0f)) {
         move_to_origin(scene, origin);
+        scene.warnings.push_back(fmt::format("{}: positions were floats before the move, in steps of up to {}",
+                                             scene.source.string(), step_of(size_of(origin))));
         tell_origin(scene);
     }
     const float size = std::max(size_of(bounds.low - origin), size_of(bounds.high - origin));

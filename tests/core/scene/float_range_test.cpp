@@ -135,7 +135,7 @@ TEST_CASE("A scene that is both huge and far is moved and scaled") {
     move(scene, {4096.0f, 0.0f, 0.0f});
     scale(scene, 0x1p40f);
     move_into_float_range(scene);
-    CHECK(scene.warnings.size() == 2);
+    CHECK(scene.warnings.size() == 3);
     CHECK_THAT(last_warning(scene), Catch::Contains("lengths times 2^-39"));
     CHECK(scene.origin == glm::dvec3(8192.0, 0.0, 0.0));
     SceneDescription expected = box_with_lights();
