@@ -24,10 +24,10 @@ glm::dvec3 far_origin(const glm::dvec3& low, const glm::dvec3& high) {
 
 void tell_origin(SceneDescription& scene) {
     if (scene.origin == glm::dvec3(0.0)) return;
-    scene.warnings.push_back(
-        fmt::format("{}: far from the origin, moved by {} {} {} to keep its shape in floats; a scene file's points are in "
-                    "coordinates of the mesh file, those of --eye, --target and camera files in moved ones",
-                    scene.source.string(), -scene.origin.x, -scene.origin.y, -scene.origin.z));
+    scene.warnings.push_back(fmt::format(
+        "{}: far from the origin, moved by {} {} {} to keep its shape in floats; a scene file's points are in "
+        "coordinates of the mesh file, those of --eye, --target and camera files in moved ones",
+        scene.source.string(), -scene.origin.x, -scene.origin.y, -scene.origin.z));
 }
 
 }  // namespace pl
