@@ -19,6 +19,7 @@
 #include "core/io/scene_materials.h"
 #include "core/scene/blends.h"
 #include "core/scene/default_light.h"
+#include "core/scene/float_range.h"
 #include "core/scene/up_axis.h"
 #include "core/scene/validate.h"
 
@@ -150,6 +151,8 @@ SceneDescription load_scene(const std::string& name_or_path, const fs::path& ass
     }
     copy_emitting_meshes(scene);
     validate_scene(scene);
+    move_into_float_range(scene);
+    warn_of_float_steps(scene);
     warn_of_missing_uvs(scene);
     const glm::vec3 up = usable_up(scene.camera);
     if (up != scene.camera.up) {

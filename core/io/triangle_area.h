@@ -1,17 +1,24 @@
 // Whether a triangle is large enough to be one.
 #pragma once
 
+#include <algorithm>
 #include <limits>
 
 #include <glm/glm.hpp>
 
 namespace pl {
 
-/// Whether a unit normal can be computed in floats: the squared length of the cross product is a normal float.
+/// Whether a triangle has a normal: the squared length of the cross product is a normal float, or, in scenes of any size, above the
+/// rounding errors of corners on a line.
 inline bool has_area(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
+    constexpr double kLineError = 0x1p-50;
     const glm::dvec3 origin(a);
-    const glm::dvec3 n = glm::cross(glm::dvec3(b) - origin, glm::dvec3(c) - origin);
-    return glm::dot(n, n) >= static_cast<double>(std::numeric_limits<float>::min());
+    const glm::dvec3 ab = glm::dvec3(b) - origin;
+    const glm::dvec3 ac = glm::dvec3(c) - origin;
+    const glm::dvec3 n = glm::cross(ab, ac);
+    const double length2 = glm::dot(n, n);
+    const double line = kLineError * std::max(glm::dot(ab, ab), glm::dot(ac, ac));
+    return length2 > 0.0 && length2 >= std::min(static_cast<double>(std::numeric_limits<float>::min()), line * line);
 }
 
 }  // namespace pl

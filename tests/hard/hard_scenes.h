@@ -14,6 +14,11 @@ inline SceneDescription scaled(SceneDescription scene, float factor) {
     scene.camera.target *= factor;
     scene.camera.aperture_radius *= factor;
     scene.camera.focus_distance *= factor;
+    for (PunctualLightDescription& light : scene.punctual_lights) {
+        light.position *= factor;
+        if (light.kind != PunctualKind::Directional) light.intensity *= factor * factor;
+    }
+    for (MaterialDescription& material : scene.materials) material.absorption /= factor;
     return scene;
 }
 
@@ -22,6 +27,7 @@ inline SceneDescription moved(SceneDescription scene, glm::vec3 by) {
     for (glm::vec3& position : scene.positions) position += by;
     scene.camera.eye += by;
     scene.camera.target += by;
+    for (PunctualLightDescription& light : scene.punctual_lights) light.position += by;
     return scene;
 }
 

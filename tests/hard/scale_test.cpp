@@ -1,8 +1,10 @@
 // Sizes and places: no length is special. Powers of two change no bit; other sizes, places and turns no mean.
 #include <algorithm>
 
+#include "core/scene/float_range.h"
 #include "tests/hard/hard_scenes.h"
 #include "tests/support/catch.hpp"
+#include "tests/support/scenes/cornell_variants.h"
 #include "tests/support/session/film_samples.h"
 #include "tests/support/session/same_bits.h"
 #include "tests/support/session/small_settings.h"
@@ -120,6 +122,78 @@ TEST_CASE("Rooms from a micrometer to a thousand kilometers lose no ray and no l
         INFO("times " << size);
         check_equilibrium(scaled(shipped_scene("door"), size), 0);
         check_equilibrium(scaled(furnace_scene(0.5f, 0.5f), size), 0);
+    }
+}
+
+namespace {
+
+/// Sum of the differences of 4 x 4 tiles, relative to the sum of the tiles, of pictures by the same random numbers.
+double tile_difference(const Snapshot& a, const Snapshot& b) {
+    constexpr std::size_t kTiles = 4;
+    std::array<Vec3d, kTiles * kTiles> sums{};
+    std::array<Vec3d, kTiles * kTiles> differences{};
+    const auto side = static_cast<std::size_t>(std::sqrt(static_cast<double>(a.pixels.size())));
+    for (std::size_t i = 0; i < a.pixels.size(); ++i) {
+        const std::size_t tile = i / side * kTiles / side * kTiles + i % side * kTiles / side;
+        sums[tile] += Vec3d{a.pixels[i]};
+        differences[tile] += Vec3d{b.pixels[i]} - Vec3d{a.pixels[i]};
+    }
+    Vec3d sum{0.0};
+    Vec3d difference{0.0};
+    for (std::size_t tile = 0; tile < sums.size(); ++tile) {
+        sum += sums[tile];
+        difference += glm::abs(differences[tile]);
+    }
+    return (difference.x + difference.y + difference.z) / (sum.x + sum.y + sum.z);
+}
+
+/// As a file of that size is shown.
+Snapshot picture_as_loaded(SceneDescription scene, Estimator estimator) {
+    move_into_float_range(scene);
+    return picture_of(scene, estimator, 24, 64);
+}
+
+/// What is learned differs by rounding, and then chooses other paths: those pictures differ by their noise.
+double tolerance_of(Estimator estimator) { return estimator.method == MethodId::Default ? 0.002 : 0.15; }
+
+void check_sizes(const SceneDescription& scene, std::span<const Estimator> estimators) {
+    for (const Estimator estimator : estimators) {
+        const Snapshot expected = picture_as_loaded(scene, estimator);
+        for (int exponent = -9; exponent <= 8; ++exponent) {
+            if (exponent == 0) continue;
+            const float factor = static_cast<float>(std::pow(10.0, exponent));
+            const Snapshot picture = picture_as_loaded(scaled(scene, factor), estimator);
+            INFO(scene.name << " times 1e" << exponent << ", " << estimator);
+            CHECK(within(tile_difference(expected, picture), tolerance_of(estimator)));
+            CHECK(count_broken(picture) == 0);
+        }
+    }
+}
+
+}  // namespace
+
+// Factors that are no powers of two round all lengths: few paths of 37 000 go another way.
+TEST_CASE("Every size from 1e-9 to 1e8 of a scene shows the same picture", "[hard]") {
+    const std::array estimators{kEstimators[1]};
+    for (const SceneDescription& scene :
+         {shipped_scene("cornell"), cornell_with_delta_lights(), cornell_with_stained_glass()})
+        check_sizes(scene, estimators);
+}
+TEST_CASE("Every size from 1e-9 to 1e8 of a scene shows the same picture by every method", "[hard][merge]") {
+    for (const char* name : {"cornell", "lens", "two-lights", "textured-room"})
+        check_sizes(shipped_scene(name), kEstimators);
+    check_sizes(cornell_with_stained_glass(), kEstimators);
+}
+
+TEST_CASE("A closed room keeps its light a million of its sizes from the origin", "[hard]") {
+    for (const float place : {1e5f, 1e6f, 4e6f, 1e8f}) {
+        // Whole numbers, as floats hold them there.
+        SceneDescription scene = moved(scaled(furnace_scene(0.5f, 0.5f), 4.0f * max_of(1.0f, place / 4e6f)),
+                                       place * Vec3f{1.0f, -1.0f, 1.0f});
+        INFO("at " << place);
+        move_into_float_range(scene);
+        CHECK(!scene.warnings.empty());
+        check_equilibrium(scene, 0);
     }
 }
 

@@ -1,5 +1,6 @@
 #include "core/io/mitsuba/sensor.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -46,6 +47,13 @@ CameraDescription cropped(CameraDescription camera, const MitsubaObject& sensor,
     return camera;
 }
 
+/// 1, or far from the origin more: floats there would turn the view to a target at 1.
+double target_distance(const glm::vec3& eye) {
+    constexpr double kFar = 1024.0;
+    const glm::dvec3 away = glm::abs(glm::dvec3(eye));
+    return std::exp2(std::ceil(std::log2(std::max({kFar, away.x, away.y, away.z}) / kFar)));
+}
+
 /// Looks along +z of its place. [Mitsuba 3, perspective]
 CameraDescription camera_of(const MitsubaObject& sensor, float aspect) {
     const glm::dmat4 to_world = sensor.transform("to_world");
@@ -60,7 +68,7 @@ CameraDescription camera_of(const MitsubaObject& sensor, float aspect) {
     const double distance = static_cast<double>(sensor.number("focus_distance").value_or(1.0f));
     CameraDescription camera;
     camera.eye = glm::vec3(to_world[3]);
-    camera.target = glm::vec3(glm::dvec3(to_world[3]) + forward);
+    camera.target = glm::vec3(glm::dvec3(to_world[3]) + target_distance(camera.eye) * forward);
     camera.up = glm::vec3(to_world[1]);
     camera.fov_deg = static_cast<float>(glm::degrees(2.0 * std::atan(half)));
     camera.aperture_radius = sensor.type() == "thinlens" ? sensor.number("aperture_radius").value_or(0.0f) : 0.0f;

@@ -162,3 +162,31 @@ TEST_CASE("Corpus: files to be loaded") {
         CHECK_FALSE(load_scene(path.string(), "").triangles.empty());
     }
 }
+
+TEST_CASE("Files of any size are shown whole: tiny ones keep their faces, lengths are scaled by a power of two") {
+    const TemporaryFolder folder;
+    folder.write("m.mtl", "newmtl wall\nKd 0.5 0.5 0.5\nKe 1 1 1\n");
+    for (const auto& [size, exponent] : {std::pair{"e-15", 49}, {"e-9", 29}, {"e8", 0}, {"e10", -34}, {"e17", -57}}) {
+        const std::string s = size;
+        folder.write("a.obj", "mtllib m.mtl\nusemtl wall\nv 0 0 0\nv 1" + s + " 0 0\nv 0 1" + s + " 0\nv 0 0 2" + s +
+                                  "\nv 0 0.001" + s + " 0\nv 0.001" + s + " 0 0\nf 1 2 3\nf 1 3 4\nf 1 5 6\n");
+        const auto json = folder.write(
+            "s.json", R"({"schema": "pathlight.scene/1", "obj": "a.obj", "camera": {"eye": [0, 0, 5)" + s + R"(]}})");
+        const SceneDescription scene = load_scene(json.string(), "");
+        INFO("1" << s);
+        CHECK(scene.triangles.size() == 3);
+        const double factor = std::ldexp(std::stod("1" + s), exponent);
+        CHECK(static_cast<double>(scene.positions[1].x) == Approx(factor).epsilon(1e-6));
+        CHECK(static_cast<double>(scene.camera.eye.z) == Approx(5.0 * factor).epsilon(1e-6));
+        CHECK(scene.warnings.empty() == (exponent == 0));
+    }
+}
+
+TEST_CASE("Faces on a line have no area, whatever their size") {
+    const TemporaryFolder folder;
+    for (const std::string size : {"e-15", "e-9", "e-2", "", "e9"}) {
+        const auto obj = folder.write("a.obj", "v 0 0 0\nv 1" + size + " 1" + size + " 0\nv 2" + size + " 2" + size +
+                                                   " 0\nf 1 2 3\nf 1 1 2\n");
+        CHECK_THAT(test::input_error([&] { load_scene(obj.string(), ""); }), contains("no face has an area"));
+    }
+}

@@ -70,6 +70,15 @@ TEST_CASE("mitsuba: the camera, its angle across or upwards, and the size of the
     CHECK(upwards.camera.target.z == 1.0f);
 }
 
+// Next to such an eye no float is 1 away.
+TEST_CASE("mitsuba: a camera far from the origin looks along its axis") {
+    const SceneDescription scene = load_mitsuba_text(
+        kSquare + "<sensor type=\"perspective\"><transform name=\"to_world\"><lookat origin=\"3e10, 1e9, 5e10\" "
+                  "target=\"1e10, 2e9, 1e10\" up=\"0, 1, 0\"/></transform></sensor>");
+    const glm::dvec3 view = glm::normalize(glm::dvec3(scene.camera.target) - glm::dvec3(scene.camera.eye));
+    CHECK(glm::length(view - glm::normalize(glm::dvec3(-2e10, 1e9, -4e10))) < 1e-4);
+}
+
 // 160 x 90 pixels of 640 x 360 from (320, 45) on, whose middle lies 80 pixels to the right and 90 above that of the film.
 TEST_CASE("mitsuba: crops of the film, and a principal point off its middle") {
     const auto sensor = [](const std::string& values, const std::string& crop) {
