@@ -52,10 +52,23 @@ TextureDescription texture_of(std::vector<glm::vec4> texels, TextureContent cont
 
 }  // namespace
 
-TEST_CASE("write_scene: a shifted picture") {
+TEST_CASE("write_scene: a shifted picture, and a mirrored one") {
     SceneDescription scene = load_scene("cornell", kAssets);
     scene.camera.shift = {0.5f, -0.25f};
     CHECK(rewritten(scene).camera.shift == scene.camera.shift);
+    CHECK_FALSE(rewritten(scene).camera.is_mirrored);
+    scene.camera.is_mirrored = true;
+    CHECK(rewritten(scene).camera.is_mirrored);
+}
+
+TEST_CASE("write_scene: an environment map in axes of its own") {
+    SceneDescription scene = triangle_of({.name = "wall", .albedo = glm::vec3(0.5f)});
+    scene.environment_map = {.width = 2, .height = 1, .rotation_deg = 20.0f, .texels = {glm::vec3(1), glm::vec3(2)}};
+    CHECK(rewritten(scene).environment_map.axes == glm::mat3(1.0f));
+    scene.environment_map.axes = glm::mat3(0, 0, 1, 0, 1, 0, 1, 0, 0);
+    const SceneDescription read = rewritten(scene);
+    CHECK(read.environment_map.axes == scene.environment_map.axes);
+    CHECK(scene_hash(read) == scene_hash(scene));
 }
 
 TEST_CASE("write_scene: shipped scenes without images have the same hash, camera and settings") {
