@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/io/texture_file.h"
+#include "core/scene/punctual_lights.h"
 
 namespace pl {
 namespace {
@@ -46,8 +47,7 @@ PunctualLightDescription spot_light(const MitsubaObject& emitter) {
                                    .falloff = SpotFalloff::Angle};
     light.outer_deg = emitter.number("cutoff_angle").value_or(20.0f);
     light.inner_deg = emitter.number("beam_width").value_or(0.75f * light.outer_deg);
-    if (!(light.inner_deg >= 0.0f && light.inner_deg <= light.outer_deg && light.outer_deg > 0.0f &&
-          light.outer_deg <= kMostSpotAngle))
+    if (!are_cones(light.inner_deg, light.outer_deg))
         emitter.fail(
             fmt::format("expected 0 <= beam_width <= cutoff_angle, and 0 < cutoff_angle <= {}, got {} and {}",
                         kMostSpotAngle, light.inner_deg, light.outer_deg));
