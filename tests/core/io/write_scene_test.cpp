@@ -69,6 +69,8 @@ TEST_CASE("write_scene: an environment map in axes of its own") {
     const SceneDescription read = rewritten(scene);
     CHECK(read.environment_map.axes == scene.environment_map.axes);
     CHECK(scene_hash(read) == scene_hash(scene));
+    scene.environment_map.axes[0] = {0, 0, 2};
+    CHECK_THROWS_AS(rewritten(scene), Error);
 }
 
 TEST_CASE("write_scene: shipped scenes without images have the same hash, camera and settings") {
@@ -104,7 +106,7 @@ TEST_CASE("write_scene: lights without extent, and lights that are refused") {
     for (int wrong = 0; wrong < 3; ++wrong) {
         SceneDescription bad = scene;
         if (wrong == 0) bad.punctual_lights[0].intensity.x = -1.0f;
-        if (wrong == 1) bad.punctual_lights[1].inner_deg = 20.5f;
+        if (wrong == 1) bad.punctual_lights[1].inner_deg = 21.0f;
         if (wrong == 2) bad.punctual_lights[2].direction = glm::vec3(0.0f);
         CHECK_THROWS_AS(rewritten(bad), Error);
     }
