@@ -23,7 +23,8 @@ CameraChoice read_camera(const JsonDocument& file, const std::string& pointer,
                               .aperture_radius = file.number(pointer + "/aperture_radius"),
                               .focus_distance = file.number(pointer + "/focus_distance"),
                               .shift_x = file.number(pointer + "/shift_x"),
-                              .shift_y = file.number(pointer + "/shift_y")};
+                              .shift_y = file.number(pointer + "/shift_y"),
+                              .is_mirrored = file.boolean(pointer + "/mirrored")};
     if (camera.fov_deg && !(*camera.fov_deg > 0.0f && *camera.fov_deg < 180.0f))
         file.fail(pointer + "/fov_deg", "expected an angle between 0 and 180 degrees");
     if (camera.aperture_radius && !(*camera.aperture_radius >= 0.0f))
@@ -65,6 +66,7 @@ CameraDescription replaced(CameraDescription camera, const CameraChoice& choice)
     camera.aperture_radius = choice.aperture_radius.value_or(camera.aperture_radius);
     camera.focus_distance = choice.focus_distance.value_or(camera.focus_distance);
     camera.shift = {choice.shift_x.value_or(camera.shift.x), choice.shift_y.value_or(camera.shift.y)};
+    camera.is_mirrored = choice.is_mirrored.value_or(camera.is_mirrored);
     return camera;
 }
 
@@ -76,6 +78,7 @@ Json camera_json(const CameraDescription& camera) {
               {"aperture_radius", camera.aperture_radius},
               {"focus_distance", camera.focus_distance}};
     if (camera.shift != glm::vec2(0.0f)) json.update({{"shift_x", camera.shift.x}, {"shift_y", camera.shift.y}});
+    if (camera.is_mirrored) json["mirrored"] = true;
     return json;
 }
 

@@ -16,7 +16,7 @@ namespace pl {
 
 /// Members of a camera in a JSON file.
 inline constexpr std::array kCameraMembers = {
-    "eye", "target", "up", "fov_deg", "aperture_radius", "focus_distance", "shift_x", "shift_y"};
+    "eye", "target", "up", "fov_deg", "aperture_radius", "focus_distance", "shift_x", "shift_y", "mirrored"};
 
 /// The given parts of a camera; the other parts come from elsewhere.
 struct CameraChoice {
@@ -28,13 +28,14 @@ struct CameraChoice {
     std::optional<float> focus_distance;
     std::optional<float> shift_x;
     std::optional<float> shift_y;
+    std::optional<bool> is_mirrored;
 };
 
 /// The camera with the given parts replaced.
 CameraDescription replaced(CameraDescription camera, const CameraChoice& choice);
 
 /// {"eye": [x,y,z], "target": [x,y,z], "up": [x,y,z], "fov_deg": vertical, "aperture_radius": r, "focus_distance": d}, and
-/// "shift_x" and "shift_y" if the picture is shifted: in its heights, right and up.
+/// "shift_x" and "shift_y" if the picture is shifted: in its heights, right and up, and "mirrored": true if right and left are swapped.
 Json camera_json(const CameraDescription& camera);
 
 /// Reads the members of camera_json(); every one may be missing. Throws Error(Input) with file and line.

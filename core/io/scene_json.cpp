@@ -71,6 +71,7 @@ void read_camera(const JsonDocument& file, const LoadSettings& asked, SceneDescr
     }
     scene.camera.shift = {file.number("/camera/shift_x").value_or(0.0f),
                           file.number("/camera/shift_y").value_or(0.0f)};
+    scene.camera.is_mirrored = file.boolean("/camera/mirrored").value_or(false);
     scene.camera.aperture_radius = file.number("/camera/aperture_radius").value_or(0.0f);
     if (scene.camera.aperture_radius < 0.0f) {
         file.fail("/camera/aperture_radius", "expected a number of at least 0");

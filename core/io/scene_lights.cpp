@@ -41,8 +41,7 @@ void read_cones(const JsonDocument& file, const std::string& at, PunctualLightDe
     light.inner_deg = file.number(at + "/inner_deg").value_or(light.inner_deg);
     light.outer_deg = file.number(at + "/outer_deg").value_or(light.outer_deg);
     light.falloff = read_falloff(file, at);
-    if (!(light.inner_deg >= 0.0f && light.inner_deg <= light.outer_deg && light.outer_deg > 0.0f &&
-          light.outer_deg <= kMostSpotAngle))
+    if (!are_cones(light.inner_deg, light.outer_deg))
         file.fail(at, fmt::format("expected 0 <= inner_deg <= outer_deg, and 0 < outer_deg <= {}, got {} and {}",
                                   kMostSpotAngle, light.inner_deg, light.outer_deg));
 }

@@ -198,6 +198,12 @@ void read_map(const JsonDocument& file, SceneDescription& scene) {
         scene.environment_map = read_environment_map(image_path(file, scene, "/environment/map", *name), scale,
                                                      rotation_deg, scene.warnings);
     }
+    for (int i = 0; i < 3 && file.has("/environment/axes"); ++i) {
+        const auto axis = file.vector(fmt::format("/environment/axes/{}", i));
+        if (!axis || file.array_size("/environment/axes") != 3)
+            file.fail("/environment/axes", "expected the map's x, y and z in the world: three directions");
+        scene.environment_map.axes[i] = *axis;
+    }
 }
 
 void read_sky(const JsonDocument& file, SceneDescription& scene) {
@@ -318,7 +324,7 @@ void write_material_file(const std::filesystem::path& path, const std::vector<Ma
 }
 
 void read_environment(const JsonDocument& file, SceneDescription& scene) {
-    if (file.object("/environment", {"radiance", "map", "scale", "rotation_deg", "sun", "sky"}) == nullptr) {
+    if (file.object("/environment", {"radiance", "map", "scale", "rotation_deg", "axes", "sun", "sky"}) == nullptr) {
         return;
     }
     scene.environment = read_light(file, "/environment/radiance").value_or(glm::vec3(0.0f));

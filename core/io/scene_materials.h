@@ -38,7 +38,7 @@ Json material_json(const MaterialDescription& material);
 void write_material_file(const std::filesystem::path& path, const std::vector<MaterialDescription>& materials);
 
 /// Reads `environment`:
-///   radiance [r, g, b]; map (an image), scale, rotation_deg; sun { direction, radiance, angle_deg };
+///   radiance [r, g, b]; map (an image), scale, rotation_deg, axes [x, y, z]; sun { direction, radiance, angle_deg };
 ///   or in place of map and sun: sky { turbidity, sun_direction, up, albedo, scale, sun_scale }, see SkyDescription
 /// Throws Error(Input) with file and line, also for an image that cannot be read, because the scene would be dark.
 void read_environment(const JsonDocument& file, SceneDescription& scene);

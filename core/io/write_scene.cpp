@@ -129,6 +129,9 @@ private:
             ++images_;
             environment["map"] = shown("environment.exr");
             environment["rotation_deg"] = scene_.environment_map.rotation_deg;
+            const glm::mat3& axes = scene_.environment_map.axes;
+            if (axes != glm::mat3(1.0f))
+                environment["axes"] = Json::array({vector_json(axes[0]), vector_json(axes[1]), vector_json(axes[2])});
         }
         if (scene_.sun.radiance != glm::vec3(0.0f))
             environment["sun"] = {{"direction", vector_json(scene_.sun.direction)},

@@ -22,6 +22,7 @@ std::uint64_t picture_key(const SceneDescription& scene, const RenderSettings& s
         hash.add(camera.shift.x);
         hash.add(camera.shift.y);
     }
+    if (camera.is_mirrored) hash.add(std::uint64_t{1});
     for (const int number : {settings.width, settings.height, settings.max_depth})
         hash.add(static_cast<std::uint64_t>(number));
     return hash.value();

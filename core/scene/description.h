@@ -118,6 +118,7 @@ struct TextureDescription {
     std::uint32_t width = 0;
     std::uint32_t height = 0;
     bool repeats = true;              ///< wrap coordinates outside of [0, 1] around; else clamp them
+    float gamma = 0.0f;               ///< exponent by which colors were decoded instead of by sRGB, or 0
     std::vector<glm::vec4> texels{};  ///< red, green, blue, opacity
 };
 
@@ -128,6 +129,7 @@ struct EnvironmentMapDescription {
     std::uint32_t height = 0;
     float rotation_deg = 0.0f;        ///< counter-clockwise about +y, seen from above
     std::vector<glm::vec3> texels{};  ///< [row][column], radiance; row 0 is up (+y), the middle column is -z
+    glm::mat3 axes{1.0f};  ///< x, y and z of all this in the world, orthonormal; left-handed ones mirror the map
 };
 
 /// A disk of constant radiance in the sky.
@@ -196,6 +198,7 @@ struct CameraDescription {
     float fov_deg = 40.0f;
     float aperture_radius = 0.0f;  ///< of the lens; 0: pinhole
     float focus_distance = 1.0f;   ///< distance of the plane of focus, along the viewing direction
+    bool is_mirrored = false;      ///< the picture shows right and left swapped
     glm::vec2 shift{
         0.0f};  ///< of the middle of the picture from the viewing direction, in heights of the picture, right and up
 };

@@ -95,6 +95,10 @@ double pack_map(const EnvironmentMapDescription& map, HostScene& packed) {
     packed.far_lights.map.width = map.width;
     packed.far_lights.map.height = map.height;
     packed.far_lights.map.turn = static_cast<float>(std::fmod(static_cast<double>(map.rotation_deg) / 360.0, 1.0));
+    packed.far_lights.map.has_axes = map.axes != glm::mat3(1.0f);
+    packed.far_lights.map.axis_x = map.axes[0];
+    packed.far_lights.map.axis_y = map.axes[1];
+    packed.far_lights.map.axis_z = map.axes[2];
     return total * 2.0 * kPiExact * kPiExact / (static_cast<double>(map.width) * map.height);
 }
 

@@ -260,6 +260,7 @@ Camera make_camera(const CameraDescription& camera, int width, int height) {
     if (!(glm::length(right) > kMinSine)) right = glm::cross(forward, farthest_axis(forward));
     right = glm::normalize(right);
     const Vec3d up = glm::cross(right, forward);
+    if (camera.is_mirrored) right = -right;
     const double half_height = std::tan(0.5 * static_cast<double>(camera.fov_deg) * kDegree);
     const double half_width = half_height * static_cast<double>(width) / static_cast<double>(height);
     const Vec3d shift =

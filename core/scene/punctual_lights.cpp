@@ -22,15 +22,17 @@ std::string complaint_about(const PunctualLightDescription& light) {
     if (light.kind == PunctualKind::Point) return "";
     const double length = glm::length(glm::dvec3(light.direction));
     if (!std::isfinite(length) || !(length > 0.0)) return fmt::format("{} is no direction", triple(light.direction));
-    const bool has_cones = light.inner_deg >= 0.0f && light.inner_deg <= light.outer_deg && light.outer_deg > 0.0f &&
-                           light.outer_deg <= kMostSpotAngle;
-    if (light.kind == PunctualKind::Spot && !has_cones)
+    if (light.kind == PunctualKind::Spot && !are_cones(light.inner_deg, light.outer_deg))
         return fmt::format("expected 0 <= inner <= outer, and 0 < outer <= {} degrees, got {} and {}", kMostSpotAngle,
                            light.inner_deg, light.outer_deg);
     return "";
 }
 
 }  // namespace
+
+bool are_cones(float inner_deg, float outer_deg) {
+    return inner_deg >= 0.0f && inner_deg <= outer_deg && outer_deg > 0.0f && outer_deg <= kMostSpotAngle;
+}
 
 std::string_view name_of(PunctualKind kind) {
     switch (kind) {

@@ -108,6 +108,8 @@ public:
         if (!map.texels.empty()) {
             begin("environment map", map.width);
             hash_.add(map.rotation_deg);
+            if (map.axes != glm::mat3(1.0f))
+                for (int i = 0; i < 3; ++i) add(hash_, map.axes[i]);
             for (const glm::vec3& texel : map.texels) add(hash_, texel);
         }
         if (scene.sun.radiance != glm::vec3(0.0f)) {

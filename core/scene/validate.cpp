@@ -22,6 +22,15 @@ bool is_light(const glm::vec3& v) { return is_finite(v) && v.x >= 0.0f && v.y >=
 
 bool is_albedo(const glm::vec3& v) { return is_light(v) && v.x <= 1.0f && v.y <= 1.0f && v.z <= 1.0f; }
 
+bool is_orthonormal(const glm::mat3& axes) {
+    constexpr float kMostError = 1e-4f;
+    const glm::mat3 error = glm::transpose(axes) * axes - glm::mat3(1.0f);
+    bool is_small = true;
+    for (int i = 0; i < 3; ++i)
+        is_small = is_small && glm::all(glm::lessThanEqual(glm::abs(error[i]), glm::vec3(kMostError)));
+    return is_small;
+}
+
 std::string show(const glm::vec3& v) { return fmt::format("({} {} {})", v.x, v.y, v.z); }
 
 /// Errors of one kind: the text of the first, and their number.
@@ -234,6 +243,10 @@ void check_far_lights(std::string& list, const SceneDescription& scene) {
     }
     if (!std::isfinite(map.rotation_deg)) {
         list += "\n  environment map: the rotation is not finite";
+    }
+    if (!is_orthonormal(map.axes)) {
+        list += fmt::format("\n  environment map: axes {}, {}, {} are not orthonormal", show(map.axes[0]),
+                            show(map.axes[1]), show(map.axes[2]));
     }
     const SunDescription& sun = scene.sun;
     const float length = glm::length(sun.direction);

@@ -32,6 +32,7 @@ std::vector<std::pair<std::string, std::string>> settings_text(const RenderSetti
     add("focus", settings.camera.focus_distance);
     if (settings.camera.shift.x != 0.0f) add("shift-x", settings.camera.shift.x);
     if (settings.camera.shift.y != 0.0f) add("shift-y", settings.camera.shift.y);
+    if (settings.camera.is_mirrored) text.emplace_back("mirrored", "true");
     add("max-depth", settings.max_depth);
     text.emplace_back("nee", settings.next_event ? "on" : "off");
     add("roulette", settings.roulette);

@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include "core/io/line_reader.h"
-#include "core/io/mitsuba/surfaces.h"
 #include "core/kernel/base/math.h"
 
 namespace pl {
@@ -20,19 +19,16 @@ bool is_adapter(const std::string& type) {
 }
 
 /// The image among the properties of an adapter, or nothing.
-MitsubaObject image_of(const MitsubaFile& file, const MitsubaObject& adapter) {
-    for (const MitsubaObject& child : adapter.children()) {
-        const MitsubaObject target = mitsuba_target(file, child);
-        if (target.element() == "texture" && target.type() == "bitmap") return target;
-    }
+MitsubaObject image_of(const MitsubaObject& adapter) {
+    for (const MitsubaObject& texture : adapter.parts("texture"))
+        if (texture.type() == "bitmap") return texture;
     return {};
 }
 
 /// Multiplies the opacity by that of an adapter of the type mask.
-void read_mask(const MitsubaFile& file, const MitsubaObject& mask, SceneDescription& scene,
-               MitsubaAdapters& adapters) {
+void read_mask(const MitsubaObject& mask, SceneDescription& scene, MitsubaAdapters& adapters) {
     adapters.has_mask = true;
-    const MitsubaObject texture = mitsuba_target(file, mask.property("opacity"));
+    const MitsubaObject texture = mask.property("opacity");
     if (texture.element() != "texture") {
         const glm::vec3 color = mask.color("opacity").value_or(glm::vec3(0.5f));
         adapters.opacity *= std::clamp(luminance(color), 0.0f, 1.0f);
@@ -44,11 +40,10 @@ void read_mask(const MitsubaFile& file, const MitsubaObject& mask, SceneDescript
     }
 }
 
-void read_normals(const MitsubaFile& file, const MitsubaObject& adapter, SceneDescription& scene,
-                  MitsubaAdapters& adapters) {
-    const MitsubaObject image = image_of(file, adapter);
+void read_normals(const MitsubaObject& adapter, SceneDescription& scene, MitsubaAdapters& adapters) {
+    const MitsubaObject image = image_of(adapter);
     if (!image) {
-        adapter.note(fmt::format("the texture of {} is no image, and is left out", in_quotes(adapter.type())));
+        adapter.leave_out(fmt::format("the texture of {} is no image, and is left out", in_quotes(adapter.type())));
         return;
     }
     adapters.image = image;
@@ -58,8 +53,7 @@ void read_normals(const MitsubaFile& file, const MitsubaObject& adapter, SceneDe
         adapters.normals = mitsuba_image(image, TextureContent::Normal, scene).value_or(kNoTexture);
 }
 
-void read_adapter(const MitsubaFile& file, const MitsubaObject& adapter, SceneDescription& scene,
-                  MitsubaAdapters& adapters) {
+void read_adapter(const MitsubaObject& adapter, SceneDescription& scene, MitsubaAdapters& adapters) {
     const std::string type = adapter.type();
     if (type == "twosided") return;
     if (type == "coating" || type == "roughcoating") {
@@ -71,29 +65,20 @@ void read_adapter(const MitsubaFile& file, const MitsubaObject& adapter, SceneDe
     }
     if (adapters.coat) adapter.note("masks and reliefs under a coat are those of the coat, too");
     if (type == "mask")
-        read_mask(file, adapter, scene, adapters);
+        read_mask(adapter, scene, adapters);
     else
-        read_normals(file, adapter, scene, adapters);
-}
-
-/// The surface inside of an adapter.
-MitsubaObject inside_of(const MitsubaFile& file, const MitsubaObject& adapter) {
-    for (const MitsubaObject& child : adapter.children()) {
-        const MitsubaObject target = mitsuba_target(file, child);
-        if (target.element() == "bsdf") return target;
-    }
-    return {};
+        read_normals(adapter, scene, adapters);
 }
 
 }  // namespace
 
-MitsubaAdapters read_mitsuba_adapters(const MitsubaFile& file, const MitsubaObject& bsdf, SceneDescription& scene) {
+MitsubaAdapters read_mitsuba_adapters(const MitsubaObject& bsdf, SceneDescription& scene) {
     constexpr int kMostAdapters = 16;
     MitsubaAdapters adapters{.inside = bsdf};
     for (int depth = 0; is_adapter(mitsuba_name(adapters.inside.type())); ++depth) {
         const MitsubaObject adapter = adapters.inside;
-        read_adapter(file, adapter, scene, adapters);
-        adapters.inside = inside_of(file, adapter);
+        read_adapter(adapter, scene, adapters);
+        adapters.inside = adapter.part("bsdf");
         if (!adapters.inside || depth > kMostAdapters) {
             adapter.fail(fmt::format("{}: expected a surface inside, got {}", adapter.type(),
                                      adapters.inside ? "a circle" : "none"));

@@ -21,6 +21,6 @@ struct MitsubaAdapters {
 
 /// Effects that are left out are noted. Throws Error(Input) if there is none.
 /// [Mitsuba 3 and 0.6, plugins]
-MitsubaAdapters read_mitsuba_adapters(const MitsubaFile& file, const MitsubaObject& bsdf, SceneDescription& scene);
+MitsubaAdapters read_mitsuba_adapters(const MitsubaObject& bsdf, SceneDescription& scene);
 
 }  // namespace pl

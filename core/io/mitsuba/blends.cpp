@@ -86,22 +86,18 @@ Parts parts_of(const MitsubaSurface& surface) {
 }
 
 /// The two surfaces inside of a blend.
-std::vector<MitsubaSurface> surfaces_inside(const MitsubaFile& file, const MitsubaObject& blend,
-                                            SceneDescription& scene, int depth) {
+std::vector<MitsubaSurface> surfaces_inside(const MitsubaObject& blend, SceneDescription& scene, int depth) {
     std::vector<MitsubaSurface> inside;
-    for (const MitsubaObject& child : blend.children()) {
-        const MitsubaObject target = mitsuba_target(file, child);
-        if (target.element() == "bsdf") inside.push_back(mitsuba_surface(file, target, scene, depth + 1));
-    }
+    for (const MitsubaObject& bsdf : blend.parts("bsdf")) inside.push_back(mitsuba_surface(bsdf, scene, depth + 1));
     if (inside.size() != 2) blend.fail(fmt::format("blendbsdf: expected two surfaces inside, got {}", inside.size()));
     return inside;
 }
 
 }  // namespace
 
-MitsubaWeight mitsuba_weight(const MitsubaFile& file, const MitsubaObject& object, const std::string& name,
-                             float standard, SceneDescription& scene) {
-    const MitsubaObject texture = mitsuba_target(file, object.property(name));
+MitsubaWeight mitsuba_weight(const MitsubaObject& object, const std::string& name, float standard,
+                             SceneDescription& scene) {
+    const MitsubaObject texture = object.property(name);
     if (texture.element() != "texture")
         return {.number = std::clamp(object.number(name).value_or(standard), 0.0f, 1.0f)};
     const std::uint32_t image = mitsuba_shares(texture, scene);
@@ -120,13 +116,12 @@ Parts blended_parts(const MitsubaObject& object, Parts first, Parts second, cons
     return mean > 0.5f ? second : first;
 }
 
-MitsubaSurface mitsuba_blend(const MitsubaFile& file, const MitsubaObject& blend, SceneDescription& scene,
-                             int depth) {
+MitsubaSurface mitsuba_blend(const MitsubaObject& blend, SceneDescription& scene, int depth) {
     if (depth >= static_cast<int>(kMostBlends))
         blend.fail(fmt::format("blendbsdf: expected at most {} blends inside of each other, got more, or a circle",
                                kMostBlends));
-    const std::vector<MitsubaSurface> inside = surfaces_inside(file, blend, scene, depth);
-    const MitsubaWeight weight = mitsuba_weight(file, blend, "weight", 0.5f, scene);
+    const std::vector<MitsubaSurface> inside = surfaces_inside(blend, scene, depth);
+    const MitsubaWeight weight = mitsuba_weight(blend, "weight", 0.5f, scene);
     if (has_adapters(inside[0]) || has_adapters(inside[1]))
         blend.note("masks and reliefs of one of two blended surfaces are those of the first, for both");
     Parts parts = blended_parts(blend, parts_of(inside[0]), parts_of(inside[1]), weight, scene);
@@ -135,6 +130,8 @@ MitsubaSurface mitsuba_blend(const MitsubaFile& file, const MitsubaObject& blend
                            .relief = inside[0].relief,
                            .shows_vertex_colors = inside[0].shows_vertex_colors || inside[1].shows_vertex_colors};
     copy_adapters(inside[0].material, surface.material);
+    surface.is_inside_out =
+        surface.material.kind == SurfaceKind::Dielectric && (inside[0].is_inside_out || inside[1].is_inside_out);
     surface.others.assign(parts.begin() + 1, parts.end());
     for (const MitsubaObject& image : {inside[1].image, weight.texture}) share_mitsuba_uv(image, surface);
     return surface;

@@ -16,8 +16,8 @@ struct MitsubaWeight {
 };
 
 /// The weight by the number or texture of this name.
-MitsubaWeight mitsuba_weight(const MitsubaFile& file, const MitsubaObject& object, const std::string& name,
-                             float standard, SceneDescription& scene);
+MitsubaWeight mitsuba_weight(const MitsubaObject& object, const std::string& name, float standard,
+                             SceneDescription& scene);
 
 /// Two chains of materials as one. Each material but the last has the share of those behind it, and the image of that share. `object` is
 /// noted where they do not blend: then the heavier one is shown.
@@ -26,6 +26,6 @@ std::vector<MaterialDescription> blended_parts(const MitsubaObject& object, std:
                                                SceneDescription& scene);
 
 /// The surface of a `bsdf` element of the type blendbsdf, inside of `depth` others. [Mitsuba 3, blendbsdf]
-MitsubaSurface mitsuba_blend(const MitsubaFile& file, const MitsubaObject& blend, SceneDescription& scene, int depth);
+MitsubaSurface mitsuba_blend(const MitsubaObject& blend, SceneDescription& scene, int depth);
 
 }  // namespace pl

@@ -16,7 +16,7 @@ namespace {
 MaterialDescription read_coat(const MitsubaObject& coat) {
     MaterialDescription black;
     black.kind = SurfaceKind::Plastic;
-    black.ior = mitsuba_ior(coat, 1.5046f);
+    black.ior = usable_ior(coat, index_ratio(coat, 1.5046f));
     black.specular = glm::min(coat.color("specular_reflectance").value_or(glm::vec3(1.0f)), glm::vec3(1.0f));
     if (mitsuba_name(coat.type()) == "roughcoating") read_mitsuba_facets(coat, black);
     return black;

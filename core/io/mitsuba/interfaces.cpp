@@ -17,15 +17,30 @@ namespace pl {
 namespace {
 
 /// Names of indices of refraction.
-constexpr std::array<std::pair<std::string_view, float>, 9> kIndices = {{{"vacuum", 1.0f},
-                                                                         {"air", 1.000277f},
-                                                                         {"water", 1.333f},
-                                                                         {"ice", 1.31f},
-                                                                         {"bk7", 1.5046f},
-                                                                         {"polypropylene", 1.49f},
-                                                                         {"acrylic glass", 1.49f},
-                                                                         {"amber", 1.55f},
-                                                                         {"diamond", 2.419f}}};
+constexpr std::array<std::pair<std::string_view, float>, 24> kIndices = {{{"vacuum", 1.0f},
+                                                                          {"helium", 1.000036f},
+                                                                          {"hydrogen", 1.000132f},
+                                                                          {"air", 1.000277f},
+                                                                          {"carbon dioxide", 1.00045f},
+                                                                          {"water", 1.333f},
+                                                                          {"acetone", 1.36f},
+                                                                          {"ethanol", 1.361f},
+                                                                          {"carbon tetrachloride", 1.461f},
+                                                                          {"glycerol", 1.4729f},
+                                                                          {"benzene", 1.501f},
+                                                                          {"silicone oil", 1.52045f},
+                                                                          {"bromine", 1.661f},
+                                                                          {"water ice", 1.31f},
+                                                                          {"ice", 1.31f},
+                                                                          {"fused quartz", 1.458f},
+                                                                          {"pyrex", 1.47f},
+                                                                          {"acrylic glass", 1.49f},
+                                                                          {"polypropylene", 1.49f},
+                                                                          {"bk7", 1.5046f},
+                                                                          {"sodium chloride", 1.544f},
+                                                                          {"amber", 1.55f},
+                                                                          {"pet", 1.575f},
+                                                                          {"diamond", 2.419f}}};
 
 float index_of(const MitsubaObject& bsdf, const char* name, float standard) {
     const MitsubaObject property = bsdf.property(name);
@@ -54,9 +69,12 @@ float read_width(const MitsubaObject& bsdf, MaterialDescription& material) {
 
 }  // namespace
 
-float mitsuba_ior(const MitsubaObject& bsdf, float standard) {
+float index_ratio(const MitsubaObject& bsdf, float standard) {
     const float outside = index_of(bsdf, "ext_ior", 1.000277f);
-    const float ior = index_of(bsdf, "int_ior", standard) / (outside > 0.0f ? outside : 1.0f);
+    return index_of(bsdf, "int_ior", standard) / (outside > 0.0f ? outside : 1.0f);
+}
+
+float usable_ior(const MitsubaObject& bsdf, float ior) {
     if (!(ior >= kLeastIor && ior <= kMostIor)) {
         bsdf.note(fmt::format("an index of refraction outside of [{}, {}] is moved into it", kLeastIor, kMostIor));
     }

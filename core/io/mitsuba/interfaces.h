@@ -6,8 +6,11 @@
 
 namespace pl {
 
-/// Index of refraction `int_ior` over `ext_ior`, as numbers or names, within the valid range.
-float mitsuba_ior(const MitsubaObject& bsdf, float standard);
+/// Index of refraction `int_ior` over `ext_ior`, as numbers or names.
+float index_ratio(const MitsubaObject& bsdf, float standard);
+
+/// The nearest valid index of refraction, with a note if it is another one.
+float usable_ior(const MitsubaObject& bsdf, float ior);
 
 /// Sets the roughness of a material by `alpha` and `distribution`; conductors get the anisotropy of `alpha_u` and `alpha_v`, too.
 void read_mitsuba_facets(const MitsubaObject& bsdf, MaterialDescription& material);

@@ -18,7 +18,7 @@ glm::vec3 mitsuba_absorption(const MitsubaObject& medium) {
         absorbed = all - scattered;
     }
     if (!is_even || scattered != none) {
-        medium.note("media that scatter light, and those that vary, are left out");
+        medium.leave_out("media that scatter light, and those that vary, are left out");
         return none;
     }
     absorbed *= medium.number("scale").value_or(1.0f);

@@ -1,8 +1,9 @@
 #include "core/io/mitsuba/mitsuba.h"
 
 #include <algorithm>
-#include <cmath>
+#include <array>
 #include <map>
+#include <string_view>
 
 #include <fmt/format.h>
 #include <glm/gtc/constants.hpp>
@@ -35,10 +36,12 @@ public:
             const std::string element = object.element();
             if (element == "shape")
                 read_shape(object);
-            else if (element == "emitter" || element == "light")
+            else if (element == "emitter")
                 read_far_light(object);
-            else if (element == "sensor" || element == "camera")
+            else if (element == "sensor")
                 read_sensor(object);
+            else if (element == "integrator")
+                read_integrator(object);
         }
         instances_.move_to(scene_);
         if (scene_.triangles.empty()) {
@@ -46,6 +49,8 @@ public:
                         fmt::format("{}: expected a shape with an area, got none", scene_.source.string()));
         }
         place_images();
+        if (sensor_) note_clipped(sensor_, scene_);
+        file_.note_unused();
         file_.notes().tell(scene_.warnings);
         const std::vector<std::filesystem::path>& own = file_.files();
         scene_.files.insert(scene_.files.begin(), own.begin(), own.end());
@@ -63,12 +68,8 @@ private:
     }
 
     void read_instance(const MitsubaObject& instance) {
-        MitsubaObject group;
-        for (const MitsubaObject& child : instance.children()) {
-            const MitsubaObject target = mitsuba_target(file_, child);
-            if (target.type() == "shapegroup") group = target;
-        }
-        if (!group) instance.fail("expected the shapegroup of this instance, got none");
+        const MitsubaObject group = instance.part("shape");
+        if (group.type() != "shapegroup") instance.fail("expected the shapegroup of this instance, got none");
         instances_.add(instance, shapes_of(group), scene_);
     }
 
@@ -79,10 +80,8 @@ private:
         if (!is_new) return known->second;
         SceneDescription& part = known->second.shapes;
         part.source = scene_.source;
-        for (const MitsubaObject& child : group.children()) {
-            const MitsubaObject shape = mitsuba_target(file_, child);
-            if (shape.element() == "shape") add_mitsuba_shape(shape, material_of(shape), round_shapes_, part);
-        }
+        for (const MitsubaObject& shape : group.parts("shape"))
+            add_mitsuba_shape(shape, material_of(shape), round_shapes_, part);
         const auto take = [](auto& from, auto& to) {
             to.insert(to.end(), from.begin(), from.end());
             from.clear();
@@ -96,16 +95,10 @@ private:
 
     /// The scene's material of a shape: one for each surface, inside and radiance.
     ShapeMaterial material_of(const MitsubaObject& shape) {
-        MitsubaObject surface;
-        Emission emission;
-        for (const MitsubaObject& child : shape.children()) {
-            const MitsubaObject target = mitsuba_target(file_, child);
-            if (target.element() == "bsdf")
-                surface = target;
-            else if (target.element() == "emitter" || target.element() == "light")
-                emission = emission_of(target);
-        }
-        const MitsubaObject inside = mitsuba_target(file_, shape.property("interior"));
+        const MitsubaObject surface = shape.part("bsdf");
+        const MitsubaObject emitter = shape.part("emitter");
+        const Emission emission = emitter ? emission_of(emitter) : Emission{};
+        const MitsubaObject inside = shape.property("interior");
         if (shape.property("exterior")) shape.note("media outside of shapes are left out");
         const auto key = std::make_tuple(surface.identity(), inside.identity(), emission.image.identity(),
                                          emission.radiance.x, emission.radiance.y, emission.radiance.z);
@@ -120,12 +113,12 @@ private:
         MitsubaObject image{};
     };
 
-    Emission emission_of(const MitsubaObject& emitter) {
+    static Emission emission_of(const MitsubaObject& emitter) {
         if (emitter.type() != "area") {
-            emitter.note(fmt::format("emitters of the type {} are left out", in_quotes(emitter.type())));
+            emitter.leave_out(fmt::format("emitters of the type {} are left out", in_quotes(emitter.type())));
             return {};
         }
-        const MitsubaObject texture = mitsuba_target(file_, emitter.property("radiance"));
+        const MitsubaObject texture = emitter.property("radiance");
         if (texture.element() == "texture") return {.radiance = glm::vec3(1.0f), .image = texture};
         return {.radiance = emitter.color("radiance").value_or(glm::vec3(1.0f))};
     }
@@ -133,7 +126,7 @@ private:
     ShapeMaterial add_material(const MitsubaObject& surface, const MitsubaObject& inside, const Emission& emission) {
         MitsubaSurface read;
         read.material.albedo = glm::vec3(emission.radiance == glm::vec3(0.0f) ? 0.5f : 0.0f);
-        if (surface) read = mitsuba_surface(file_, surface, scene_);
+        if (surface) read = mitsuba_surface(surface, scene_);
         MaterialDescription& material = read.material;
         material.emission = emission.radiance;
         if (emission.image) {
@@ -142,9 +135,13 @@ private:
             material.textures.emission = image.value_or(kNoTexture);
             if (!read.image) read.image = emission.image;
         }
+        if (emission.radiance != glm::vec3(0.0f) && surface && surface.type() == "null") {
+            material.opacity = 1.0f;
+            surface.note("surfaces of the type 'null' of shapes that emit are black");
+        }
         if (emission.radiance != glm::vec3(0.0f) && material.may_have_holes())
             surface.note("the light of shapes with a mask is masked, too");
-        if (inside) set_inside(inside, material);
+        if (inside) set_inside(inside, read);
         const std::string id = surface ? surface.attribute("id") : "";
         material.name = id.empty() ? fmt::format("material {}", scene_.materials.size()) : id;
         if (std::any_of(scene_.materials.begin(), scene_.materials.end(),
@@ -154,7 +151,7 @@ private:
         scene_.materials.push_back(material);
         surfaces_.push_back(read);
         add_parts(first, read.others);
-        return {first, read.shows_vertex_colors, emission.radiance != glm::vec3(0.0f)};
+        return {first, read.shows_vertex_colors, emission.radiance != glm::vec3(0.0f), read.is_inside_out};
     }
 
     /// The materials that the last one blends with.
@@ -182,41 +179,57 @@ private:
     }
 
     /// The medium inside of a shape.
-    static void set_inside(const MitsubaObject& medium, MaterialDescription& material) {
-        if (medium.element() == "medium" && material.kind == SurfaceKind::Dielectric)
-            material.absorption = mitsuba_absorption(medium);
+    static void set_inside(const MitsubaObject& medium, MitsubaSurface& surface) {
+        if (medium.element() == "medium" && surface.material.kind == SurfaceKind::Dielectric &&
+            !surface.is_inside_out)
+            surface.material.absorption = mitsuba_absorption(medium);
         else
-            medium.note("media inside of other surfaces than glass are left out");
+            medium.leave_out("media inside of other surfaces than glass are left out");
     }
 
     void read_far_light(const MitsubaObject& emitter) {
         const std::string type = emitter.type();
-        const float scale = emitter.number("scale").value_or(1.0f);
         if (type == "constant")
             scene_.environment = emitter.color("radiance").value_or(glm::vec3(1.0f));
-        else if (type == "envmap" && scale >= 0.0f)
-            read_map(emitter, scale);
+        else if (type == "envmap")
+            scene_.environment_map = mitsuba_map(emitter, scene_.warnings);
         else if (!add_mitsuba_light(emitter, scene_) && !add_mitsuba_sky(emitter, scene_))
-            emitter.note(fmt::format("emitters of the type {} are left out", in_quotes(type)));
+            emitter.leave_out(fmt::format("emitters of the type {} are left out", in_quotes(type)));
     }
 
-    /// Its first column is towards -z, its middle one towards +z, seen from inside. [Mitsuba 3, envmap]
-    void read_map(const MitsubaObject& emitter, float scale) {
-        const glm::dvec3 forward(emitter.transform("to_world")[2]);
-        if (std::abs(forward.y) > 1e-3) emitter.note("environment maps that are tilted stand upright");
-        const double yaw = std::atan2(forward.x, forward.z) * 180.0 / glm::pi<double>();
-        scene_.environment_map =
-            read_environment_map(emitter.file("filename"), scale, static_cast<float>(180.0 + yaw), scene_.warnings);
+    /// Its depth becomes a preset. [Mitsuba 3, path]
+    void read_integrator(const MitsubaObject& integrator) {
+        const std::string type = integrator.type();
+        if (const MitsubaObject inside = integrator.part("integrator")) {
+            integrator.leave_out(
+                fmt::format("integrators of the type {} are shown as the one inside", in_quotes(type)));
+            read_integrator(inside);
+            return;
+        }
+        constexpr std::array<std::string_view, 4> kOfPaths = {"path", "volpath", "volpathmis", "direct"};
+        if (std::ranges::find(kOfPaths, type) == kOfPaths.end()) {
+            integrator.leave_out(
+                fmt::format("integrators of the type {} are left out: pictures are of paths", in_quotes(type)));
+            return;
+        }
+        const float depth = integrator.number("max_depth").value_or(type == "direct" ? 2.0f : -1.0f);
+        if (depth >= 0.0f)
+            scene_.settings.emplace_back("max-depth", fmt::format("{:.0f}", std::clamp(depth, 1.0f, kMostDepth)));
+        for (const char* rule : {"hide_emitters", "strict_normals"})
+            if (integrator.boolean(rule).value_or(false))
+                integrator.note(fmt::format("{} is left out", in_quotes(rule)));
     }
 
     void read_sensor(const MitsubaObject& sensor) {
         const std::string type = sensor.type();
         if ((type != "perspective" && type != "thinlens") || !scene_.cameras.empty()) {
-            sensor.note(scene_.cameras.empty() ? fmt::format("sensors of the type {} are left out", in_quotes(type))
-                                               : "sensors after the first one are left out");
+            sensor.leave_out(scene_.cameras.empty()
+                                 ? fmt::format("sensors of the type {} are left out", in_quotes(type))
+                                 : "sensors after the first one are left out");
             return;
         }
         const MitsubaView view = mitsuba_view(sensor);
+        sensor_ = sensor;
         scene_.settings.emplace_back("size", fmt::format("{:.0f}x{:.0f}", view.width, view.height));
         scene_.cameras.push_back({.name = sensor.attribute("id"), .camera = view.camera});
         scene_.camera = scene_.cameras.front().camera;
@@ -224,12 +237,15 @@ private:
         scene_.up = nearest_axis(scene_.camera.up);
     }
 
+    static constexpr float kMostDepth = 65536.0f;  // of --max-depth
+
     MitsubaFile file_;
     SceneDescription scene_;
     std::map<std::tuple<const void*, const void*, const void*, float, float, float>, ShapeMaterial> materials_;
     std::map<const void*, MitsubaGroup> groups_;
     MitsubaInstances instances_;
     RoundShapes round_shapes_;
+    MitsubaObject sensor_;
     std::vector<MitsubaSurface> surfaces_;  ///< [material]
 };
 

@@ -9,8 +9,9 @@
 namespace pl {
 
 /// Reads shapes, groups of them by their instances (see MitsubaInstances), surfaces, textures, emitters, camera and size of the picture;
-/// the caller sets the name. `up` is that of the camera. The first sensor becomes the first of SceneDescription::cameras. Content
-/// without a counterpart is told once for each kind; integrators and samplers say nothing about the scene and are passed over.
+/// the caller sets the name. `up` is that of the camera. The first sensor becomes the first of SceneDescription::cameras. The
+/// depth of the integrator becomes the preset max-depth. Content without a counterpart is told once for each kind, as is every property
+/// that is not read.
 /// Throws Error(Input) with file and line, see MitsubaFile.
 SceneDescription load_mitsuba(const std::filesystem::path& path,
                               std::uint64_t most_copied_triangles = kMostCopiedTriangles);

@@ -1,5 +1,6 @@
 #include "core/io/mitsuba/round_shapes.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
@@ -10,20 +11,16 @@
 #include <glm/gtc/constants.hpp>
 
 #include "core/io/mitsuba/faces.h"
-#include "core/io/mitsuba/surfaces.h"
 
 namespace pl {
 namespace {
 
-RoundShapes count_in(const MitsubaFile& file, const std::vector<MitsubaObject>& objects) {
+RoundShapes count_in(const std::vector<MitsubaObject>& objects) {
     RoundShapes count;
     for (const MitsubaObject& object : objects) {
         if (object.type() != "sphere" && object.type() != "disk") continue;
-        bool emits = false;
-        for (const MitsubaObject& child : object.children()) {
-            const std::string element = mitsuba_target(file, child).element();
-            emits = emits || element == "emitter" || element == "light";
-        }
+        const bool emits = std::ranges::any_of(
+            object.children(), [](const MitsubaObject& child) { return child.target().element() == "emitter"; });
         ++(emits ? count.emitting : count.others);
     }
     return count;
@@ -61,11 +58,11 @@ std::uint32_t RoundShapes::sides(bool emits) const {
 }
 
 RoundShapes count_round_shapes(const MitsubaFile& file) {
-    RoundShapes all = count_in(file, file.objects());
+    RoundShapes all = count_in(file.objects());
     std::map<const void*, std::size_t> emitting_of_group;
     for (const MitsubaObject& object : file.objects()) {
         if (object.type() != "shapegroup") continue;
-        const RoundShapes group = count_in(file, object.children());
+        const RoundShapes group = count_in(object.children());
         all.others += group.others;
         if (group.emitting > 0) emitting_of_group[object.identity()] = group.emitting;
     }
@@ -73,7 +70,7 @@ RoundShapes count_round_shapes(const MitsubaFile& file) {
     for (const MitsubaObject& object : file.objects()) {
         if (object.type() != "instance") continue;
         for (const MitsubaObject& child : object.children()) {
-            const auto group = emitting_of_group.find(mitsuba_target(file, child).identity());
+            const auto group = emitting_of_group.find(child.target().identity());
             if (group != emitting_of_group.end()) all.emitting += group->second;
         }
     }

@@ -1,10 +1,14 @@
 #include "core/io/mitsuba/sensor.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
-#include <glm/gtc/constants.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "core/io/line_reader.h"
 
 namespace pl {
 namespace {
@@ -54,17 +58,47 @@ double target_distance(const glm::vec3& eye) {
     return std::exp2(std::ceil(std::log2(std::max({kFar, away.x, away.y, away.z}) / kFar)));
 }
 
-/// Looks along +z of its place. [Mitsuba 3, perspective]
+/// An angle of view, and the side of the picture that it spans: 'x', 'y' or 'd', the diagonal.
+struct ViewAngle {
+    double degrees;
+    char axis;
+};
+
+/// Focal lengths are those of the diagonal of 36 x 24 mm. [Mitsuba 3, perspective]
+ViewAngle angle_of(const MitsubaObject& sensor, double aspect) {
+    const auto fov = sensor.number("fov");
+    std::string focal = sensor.text("focal_length").value_or("50mm");
+    const std::string axis = mitsuba_name(sensor.text("fov_axis").value_or("x"));
+    if (!fov) {
+        if (focal.ends_with("mm")) focal.resize(focal.size() - 2);
+        const double length = parse_number(focal).value_or(0.0);
+        if (!(length > 0.0))
+            sensor.fail(
+                fmt::format("'focal_length': expected millimeters above 0 such as 50mm, got {}", in_quotes(focal)));
+        return {glm::degrees(2.0 * std::atan(0.5 * std::hypot(36.0, 24.0) / length)), 'd'};
+    }
+    const double degrees = static_cast<double>(*fov);
+    if (axis == "x" || axis == "y") return {degrees, axis.front()};
+    if (axis == "diagonal") return {degrees, 'd'};
+    if (axis == "smaller") return {degrees, aspect > 1.0 ? 'y' : 'x'};
+    if (axis == "larger") return {degrees, aspect > 1.0 ? 'x' : 'y'};
+    sensor.fail(fmt::format("'fov_axis': expected x, y, diagonal, smaller or larger, got {}", in_quotes(axis)));
+}
+
+/// Half of the height of the picture over its distance.
+double half_height_of(const ViewAngle& angle, double aspect) {
+    const double half = std::tan(0.5 * glm::radians(angle.degrees));
+    return angle.axis == 'y' ? half : half / (angle.axis == 'x' ? aspect : std::hypot(aspect, 1.0));
+}
+
+/// Looks along +z of its place, with +x to the left. [Mitsuba 3, perspective]
 CameraDescription camera_of(const MitsubaObject& sensor, float aspect) {
     const glm::dmat4 to_world = sensor.transform("to_world");
     const glm::dvec3 forward = glm::normalize(glm::dvec3(to_world[2]));
-    const double fov = static_cast<double>(sensor.number("fov").value_or(39.5978f));
-    if (!(fov > 0.0 && fov < 180.0) || !std::isfinite(forward.x))
-        sensor.fail(fmt::format("expected a direction, and 'fov' within (0, 180) degrees, got {}", fov));
-    const std::string axis = mitsuba_name(sensor.text("fov_axis").value_or("x"));
-    const bool is_vertical =
-        axis == "y" || (axis == "smaller" && aspect > 1.0f) || (axis == "larger" && aspect < 1.0f);
-    const double half = std::tan(0.5 * glm::radians(fov)) / (is_vertical ? 1.0 : static_cast<double>(aspect));
+    const ViewAngle angle = angle_of(sensor, static_cast<double>(aspect));
+    if (!(angle.degrees > 0.0 && angle.degrees < 180.0) || !std::isfinite(forward.x))
+        sensor.fail(fmt::format("expected a direction, and 'fov' within (0, 180) degrees, got {}", angle.degrees));
+    const double half = half_height_of(angle, static_cast<double>(aspect));
     const double distance = static_cast<double>(sensor.number("focus_distance").value_or(1.0f));
     CameraDescription camera;
     camera.eye = glm::vec3(to_world[3]);
@@ -73,19 +107,63 @@ CameraDescription camera_of(const MitsubaObject& sensor, float aspect) {
     camera.fov_deg = static_cast<float>(glm::degrees(2.0 * std::atan(half)));
     camera.aperture_radius = sensor.type() == "thinlens" ? sensor.number("aperture_radius").value_or(0.0f) : 0.0f;
     camera.focus_distance = static_cast<float>(distance);
+    camera.is_mirrored = glm::determinant(glm::dmat3(to_world)) < 0.0;
     return camera;
 }
+
+/// The part of space that a picture shows, and a little around it: a pyramid that looks along -z.
+struct ViewPyramid {
+    glm::dmat4 to_view;
+    glm::dvec2 tangents;
+
+    explicit ViewPyramid(const MitsubaView& view) {
+        const CameraDescription& camera = view.camera;
+        to_view = glm::lookAt(glm::dvec3(camera.eye), glm::dvec3(camera.target), glm::dvec3(camera.up));
+        const double half = std::tan(0.5 * glm::radians(static_cast<double>(camera.fov_deg)));
+        const glm::dvec2 shift = glm::abs(glm::dvec2(camera.shift));
+        tangents = half * (glm::dvec2(static_cast<double>(view.width / view.height), 1.0) + 2.0 * shift);
+    }
+
+    /// Whether the bounds of a triangle reach into it between two distances.
+    bool has_between(double first, double last, const std::array<glm::vec3, 3>& corners) const {
+        glm::dvec3 low(std::numeric_limits<double>::infinity());
+        glm::dvec3 high = -low;
+        for (const glm::vec3& corner : corners) {
+            const glm::dvec3 seen(to_view * glm::dvec4(glm::dvec3(corner), 1.0));
+            low = glm::min(low, seen);
+            high = glm::max(high, seen);
+        }
+        const glm::dvec2 reach = tangents * std::min(last, -low.z);
+        return -high.z < last && -low.z > first && glm::all(glm::lessThan(glm::dvec2(low), reach)) &&
+               glm::all(glm::greaterThan(glm::dvec2(high), -reach));
+    }
+};
 
 }  // namespace
 
 MitsubaView mitsuba_view(const MitsubaObject& sensor) {
-    const MitsubaObject film = sensor.child("film");
+    const MitsubaObject film = sensor.part("film");
     const float width = film.number("width").value_or(768.0f);
     const float height = film.number("height").value_or(576.0f);
     if (!(width >= 1.0f && height >= 1.0f && width <= 65536.0f && height <= 65536.0f))
         film.fail(fmt::format("expected a picture of 1 to 65536 pixels on each side, got {}x{}", width, height));
     const Crop crop = crop_of(film, width, height);
     return {cropped(camera_of(sensor, width / height), sensor, crop), crop.width, crop.height};
+}
+
+void note_clipped(const MitsubaObject& sensor, const SceneDescription& scene) {
+    const double near = static_cast<double>(sensor.number("near_clip").value_or(1e-2f));
+    const double far = static_cast<double>(sensor.number("far_clip").value_or(1e4f));
+    const ViewPyramid pyramid(mitsuba_view(sensor));
+    const auto any_between = [&](double first, double last) {
+        return std::ranges::any_of(scene.triangles, [&](const TriangleDescription& t) {
+            return pyramid.has_between(
+                first, last, {scene.positions[t.vertex.x], scene.positions[t.vertex.y], scene.positions[t.vertex.z]});
+        });
+    };
+    if (any_between(0.0, near)) sensor.note(fmt::format("what is nearer than near_clip, {}, is shown", near));
+    if (any_between(far, std::numeric_limits<double>::infinity()))
+        sensor.note(fmt::format("what is farther than far_clip, {}, is shown", far));
 }
 
 }  // namespace pl

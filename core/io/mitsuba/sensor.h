@@ -15,4 +15,7 @@ struct MitsubaView {
 /// without pixels or of too many, a crop that leaves it, no direction, and angles out of (0, 180) degrees.
 MitsubaView mitsuba_view(const MitsubaObject& sensor);
 
+/// Notes the planes of clipping where something of the scene may be behind them: nothing is clipped.
+void note_clipped(const MitsubaObject& sensor, const SceneDescription& scene);
+
 }  // namespace pl

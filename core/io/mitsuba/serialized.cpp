@@ -79,8 +79,7 @@ std::string unpacked(std::string_view packed, std::size_t most, const Bytes& fil
     // A failure without a reason leaves that of an earlier one, which must not be the limit.
     ::stbi_zlib_decode_buffer(bytes.data(), 0, "", 0);
     const int got = ::stbi_zlib_decode_buffer(bytes.data(), static_cast<int>(bytes.size()), packed.data(), size);
-    const std::string why = got < 0 ? stb_failure() : "";
-    if (got < 0 && why != "output buffer limit") file.fail("expected a compressed mesh: " + why);
+    if (got < 0 && stb_failure() != "output buffer limit") file.fail("expected a compressed mesh, got a damaged one");
     bytes.resize(got < 0 ? most : std::min(static_cast<std::size_t>(got), most));
     return bytes;
 }

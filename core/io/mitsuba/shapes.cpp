@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <system_error>
 
 #include <fmt/format.h>
 #include <glm/gtc/matrix_transform.hpp>
@@ -72,6 +73,8 @@ struct FileMesh {
     ObjMesh mesh;
     std::vector<glm::vec3> vertex_colors{};
     bool is_flat = false;  ///< the file says that its faces are flat
+
+    bool has_normals() const { return !is_flat && !mesh.normals.empty(); }
 };
 
 FileMesh read_file_mesh(const MitsubaObject& shape, const std::filesystem::path& path) {
@@ -156,13 +159,22 @@ void add_mitsuba_shape(const MitsubaObject& shape, const ShapeMaterial& material
     SceneDescription added;
     std::vector<glm::vec3> vertex_colors;
     added.source = scene.source;
+    // A mirrored sphere, and a mesh whose corners decide about its front, turn inside out. [Mitsuba 3]
+    bool keeps_front = type != "sphere";
     if (type == "obj" || type == "ply" || type == "serialized") {
         added.source = shape.file("filename");
         scene.files.push_back(added.source);
+        std::error_code ignored;
+        if (!std::filesystem::exists(added.source, ignored)) {
+            shape.leave_out(fmt::format("no such file: {}: its shape is left out", added.source.string()));
+            return;
+        }
         FileMesh read = read_file_mesh(shape, added.source);
+        read.is_flat = read.is_flat || shape.boolean("face_normals").value_or(false);
+        keeps_front = read.has_normals();
         mesh = std::move(read.mesh);
         vertex_colors = std::move(read.vertex_colors);
-        settle_normals(read.is_flat || shape.boolean("face_normals").value_or(false), mesh);
+        settle_normals(read.is_flat, mesh);
     } else if (type == "rectangle") {
         mesh = rectangle();
     } else if (type == "cube") {
@@ -176,13 +188,14 @@ void add_mitsuba_shape(const MitsubaObject& shape, const ShapeMaterial& material
         to_world = glm::scale(glm::translate(to_world, glm::dvec3(shape.point("center").value_or(glm::vec3(0.0f)))),
                               glm::dvec3(static_cast<double>(shape.number("radius").value_or(1.0f))));
     } else {
-        shape.note(fmt::format("shapes of the type {} are left out", in_quotes(type)));
+        shape.leave_out(fmt::format("shapes of the type {} are left out", in_quotes(type)));
         return;
     }
     if (!shape.boolean("flip_tex_coords").value_or(type == "obj")) turn_images_over(mesh);
     move(shape, to_world, mesh);
-    const bool is_mirrored = glm::determinant(glm::dmat3(to_world)) < 0.0;
-    if (is_mirrored != shape.boolean("flip_normals").value_or(false)) turn_over(mesh);
+    const bool is_mirrored = keeps_front && glm::determinant(glm::dmat3(to_world)) < 0.0;
+    const bool is_flipped = shape.boolean("flip_normals").value_or(false) != material.is_inside_out;
+    if (is_mirrored != is_flipped) turn_over(mesh);
     const MaterialTable materials{.of_name = std::vector<std::uint32_t>(mesh.materials.size(), material.index),
                                   .fallback = material.index};
     add_obj_triangles(added, std::move(mesh), materials, nullptr, usable_threads());

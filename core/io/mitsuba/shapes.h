@@ -12,11 +12,12 @@ struct ShapeMaterial {
     std::uint32_t index = 0;
     bool shows_vertex_colors = false;
     bool emits = false;
+    bool is_inside_out = false;  ///< the front of its shapes is their other side
 };
 
 /// Adds the triangles of a `shape` element with this material: obj, ply, serialized, rectangle, cube, disk and sphere, the last two as
 /// meshes as fine as their numbers in the file allow; others are left out with a note. Meshes without normals are smooth
-/// unless they have `faceNormals`, as in Mitsuba. Throws Error(Input).
+/// unless they have `faceNormals`, as in Mitsuba; missing files are left out with a note. Throws Error(Input).
 void add_mitsuba_shape(const MitsubaObject& shape, const ShapeMaterial& material, const RoundShapes& round_shapes,
                        SceneDescription& scene);
 

@@ -46,14 +46,18 @@ Metal metal_of(const glm::vec3& eta, const glm::vec3& k) {
 
 class SurfaceReader {
 public:
-    SurfaceReader(const MitsubaFile& file, const MitsubaObject& bsdf, SceneDescription& scene)
-        : file_(file), bsdf_(bsdf), scene_(scene) {}
+    SurfaceReader(const MitsubaObject& bsdf, SceneDescription& scene) : bsdf_(bsdf), scene_(scene) {}
 
     MitsubaSurface run() {
         const std::string type = mitsuba_name(bsdf_.type());
-        const bool is_rough = type.starts_with("rough");
-        if (type == "diffuse") {
+        const bool is_rough = type.starts_with("rough") && type != "roughdiffuse";
+        if (type == "diffuse" || type == "roughdiffuse") {
             color("reflectance", material_.albedo, 0.5f);
+            if (type == "roughdiffuse") bsdf_.note("rough diffuse surfaces are shown as smooth ones");
+        } else if (type == "null") {
+            material_.albedo = glm::vec3(0.0f);
+            material_.opacity = 0.0f;
+            material_.opacity_rule = OpacityRule::Blend;
         } else if (type == "conductor" || type == "roughconductor") {
             read_conductor();
         } else if (type == "dielectric" || type == "roughdielectric" || type == "thindielectric") {
@@ -63,14 +67,15 @@ public:
         } else if (type == "principled" || type == "principledthin") {
             read_principled();
         } else {
-            bsdf_.note(fmt::format("surfaces of the type {} are shown as gray", in_quotes(type)));
+            bsdf_.leave_out(fmt::format("surfaces of the type {} are shown as gray", in_quotes(type)));
             material_.albedo = glm::vec3(0.5f);
         }
         if (is_rough) read_mitsuba_facets(bsdf_, material_);
         return {.material = material_,
                 .others = std::move(others_),
                 .image = image_,
-                .shows_vertex_colors = shows_vertex_colors_};
+                .shows_vertex_colors = shows_vertex_colors_,
+                .is_inside_out = is_inside_out_};
     }
 
 private:
@@ -78,7 +83,7 @@ private:
 
     /// A color or a texture, which then multiplies 1.
     void color(const std::string& name, glm::vec3& to, float standard) {
-        const MitsubaObject texture = mitsuba_target(file_, bsdf_.property(name));
+        const MitsubaObject texture = bsdf_.property(name);
         if (texture.element() == "texture") {
             to = read_texture_of(texture);
             return;
@@ -96,7 +101,7 @@ private:
             shows_vertex_colors_ = true;
             return within_one(glm::vec3(texture.number("scale").value_or(1.0f)));
         }
-        texture.note(fmt::format("textures of the type {} are shown as one color", in_quotes(texture.type())));
+        texture.leave_out(fmt::format("textures of the type {} are shown as one color", in_quotes(texture.type())));
         const glm::vec3 first = texture.color("color0").value_or(glm::vec3(0.4f));
         return within_one(0.5f * (first + texture.color("color1").value_or(glm::vec3(0.2f))));
     }
@@ -125,14 +130,17 @@ private:
 
     void read_dielectric(SurfaceKind kind) {
         material_.kind = kind;
-        material_.ior = mitsuba_ior(bsdf_, 1.5046f);
+        // Glass that is less dense than what is around it is the other side of one that is denser.
+        const float ior = index_ratio(bsdf_, 1.5046f);
+        is_inside_out_ = kind == SurfaceKind::Dielectric && ior < 1.0f;
+        material_.ior = usable_ior(bsdf_, is_inside_out_ ? 1.0f / ior : ior);
         material_.specular = within_one(bsdf_.color("specular_reflectance").value_or(glm::vec3(1.0f)));
         material_.transmission = within_one(bsdf_.color("specular_transmittance").value_or(glm::vec3(1.0f)));
     }
 
     void read_plastic() {
         material_.kind = SurfaceKind::Plastic;
-        material_.ior = mitsuba_ior(bsdf_, 1.49f);
+        material_.ior = usable_ior(bsdf_, index_ratio(bsdf_, 1.49f));
         material_.specular = within_one(bsdf_.color("specular_reflectance").value_or(glm::vec3(1.0f)));
         color("diffuse_reflectance", material_.albedo, 0.5f);
         if (bsdf_.boolean("nonlinear").value_or(false)) {
@@ -160,7 +168,7 @@ private:
             material_.kind = SurfaceKind::Plastic;
             material_.albedo = base;
         }
-        const MitsubaWeight metallic = mitsuba_weight(file_, bsdf_, "metallic", 0.0f, scene_);
+        const MitsubaWeight metallic = mitsuba_weight(bsdf_, "metallic", 0.0f, scene_);
         others_ = blended_parts(bsdf_, {material_}, {metal}, metallic, scene_);
         material_ = others_.front();
         others_.erase(others_.begin());
@@ -168,24 +176,16 @@ private:
         bsdf_.note("principled surfaces are shown as metal, plastic, a blend of the two, or glass");
     }
 
-    const MitsubaFile& file_;
     const MitsubaObject& bsdf_;
     SceneDescription& scene_;
     MaterialDescription material_;
     std::vector<MaterialDescription> others_;
     MitsubaObject image_;
     bool shows_vertex_colors_ = false;
+    bool is_inside_out_ = false;
 };
 
 }  // namespace
-
-MitsubaObject mitsuba_target(const MitsubaFile& file, const MitsubaObject& object) {
-    if (object.element() != "ref") return object;
-    const MitsubaObject target = file.by_id(object.attribute("id"));
-    if (!target)
-        object.fail(fmt::format("'ref': expected the id of an object, got {}", in_quotes(object.attribute("id"))));
-    return target;
-}
 
 void share_mitsuba_uv(const MitsubaObject& image, MitsubaSurface& surface) {
     if (surface.image && image && mitsuba_to_uv(surface.image) != mitsuba_to_uv(image))
@@ -193,12 +193,11 @@ void share_mitsuba_uv(const MitsubaObject& image, MitsubaSurface& surface) {
     if (!surface.image) surface.image = image;
 }
 
-MitsubaSurface mitsuba_surface(const MitsubaFile& file, const MitsubaObject& bsdf, SceneDescription& scene,
-                               int depth) {
-    const MitsubaAdapters adapters = read_mitsuba_adapters(file, bsdf, scene);
+MitsubaSurface mitsuba_surface(const MitsubaObject& bsdf, SceneDescription& scene, int depth) {
+    const MitsubaAdapters adapters = read_mitsuba_adapters(bsdf, scene);
     MitsubaSurface surface = mitsuba_name(adapters.inside.type()) == "blendbsdf"
-                                 ? mitsuba_blend(file, adapters.inside, scene, depth)
-                                 : SurfaceReader(file, adapters.inside, scene).run();
+                                 ? mitsuba_blend(adapters.inside, scene, depth)
+                                 : SurfaceReader(adapters.inside, scene).run();
     if (adapters.coat) add_mitsuba_coat(adapters.coat, surface);
     MaterialDescription& material = surface.material;
     if (adapters.normals != kNoTexture) {

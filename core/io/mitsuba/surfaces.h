@@ -18,17 +18,14 @@ struct MitsubaSurface {
     MitsubaObject image{};                  ///< the texture whose transformation is that of the surface; or nothing
     std::optional<MitsubaRelief> relief{};  ///< see add_mitsuba_relief()
     bool shows_vertex_colors = false;       ///< a color is that of the vertices of its shapes
+    bool is_inside_out = false;             ///< it is that of the other side of its shapes
 };
 
 /// The surface of a `bsdf` element, with its textures added to the scene. Adapters such as `twosided` are those of the surface
 /// inside. `depth`: number of the blends that it is part of. [Mitsuba 3 and 0.6, plugins]
-MitsubaSurface mitsuba_surface(const MitsubaFile& file, const MitsubaObject& bsdf, SceneDescription& scene,
-                               int depth = 0);
+MitsubaSurface mitsuba_surface(const MitsubaObject& bsdf, SceneDescription& scene, int depth = 0);
 
 /// Gives a surface the transformation of a further image, or of nothing. All images share that of the first one, with a note.
 void share_mitsuba_uv(const MitsubaObject& image, MitsubaSurface& surface);
-
-/// The object that `object` stands for: the one with its id if it is a `ref`.
-MitsubaObject mitsuba_target(const MitsubaFile& file, const MitsubaObject& object);
 
 }  // namespace pl

@@ -5,7 +5,10 @@
 #include <map>
 #include <tuple>
 
+#include <fmt/format.h>
+
 #include "core/io/height_map.h"
+#include "core/io/line_reader.h"
 #include "core/io/texture_file.h"
 #include "core/kernel/base/math.h"
 #include "core/scene/instances.h"
@@ -13,7 +16,45 @@
 namespace pl {
 namespace {
 
-bool repeats(const MitsubaObject& texture) { return texture.text("wrap_mode").value_or("repeat") != "clamp"; }
+bool repeats(const MitsubaObject& texture) {
+    const std::string mode = texture.text("wrap_mode").value_or("repeat");
+    if (mode != "clamp" && mode != "repeat")
+        texture.note(fmt::format("{} of textures is shown as repeat", in_quotes(mode)));
+    return mode != "clamp";
+}
+
+/// The exponent by which values are decoded, or 0 for sRGB. [Mitsuba 3, bitmap; 0.6 has `gamma`]
+float gamma_of(const MitsubaObject& bitmap) {
+    if (bitmap.boolean("raw").value_or(false)) return 1.0f;
+    return std::max(bitmap.number("gamma").value_or(0.0f), 0.0f);
+}
+
+TextureDescription read_bitmap(const std::filesystem::path& path, float gamma, bool wraps, SceneDescription& scene) {
+    TextureDescription image =
+        read_texture(path, gamma > 0.0f ? TextureContent::Normal : TextureContent::Color, wraps, scene.warnings);
+    image.gamma = gamma;
+    if (gamma > 0.0f && gamma != 1.0f)
+        for (glm::vec4& texel : image.texels)
+            texel = glm::vec4(glm::pow(glm::vec3(texel), glm::vec3(gamma)), texel.w);
+    return image;
+}
+
+/// Adds an image of colors if it is new.
+std::uint32_t add_colors(const MitsubaObject& bitmap, SceneDescription& scene) {
+    const std::filesystem::path path = bitmap.file("filename");
+    const bool wraps = repeats(bitmap);
+    const float gamma = gamma_of(bitmap);
+    const auto known = std::ranges::find_if(scene.textures, [&](const TextureDescription& image) {
+        return image.source == path && image.content == TextureContent::Color && image.repeats == wraps &&
+               image.gamma == gamma;
+    });
+    if (known != scene.textures.end()) return static_cast<std::uint32_t>(known - scene.textures.begin());
+    return add_texture_by(scene, path, TextureContent::Color, wraps, [&] {
+        TextureDescription image = read_bitmap(path, gamma, wraps, scene);
+        image.content = TextureContent::Color;
+        return image;
+    });
+}
 
 glm::vec4 texel_of(const MitsubaObject& texture, const char* name, float standard) {
     return {glm::min(texture.color(name).value_or(glm::vec3(standard)), glm::vec3(1.0f)), 1.0f};
@@ -34,10 +75,10 @@ TextureDescription checkerboard(const MitsubaObject& texture, const SceneDescrip
 std::uint32_t add_luminance(const MitsubaObject& bitmap, TextureContent content, float glm::vec4::*channel,
                             SceneDescription& scene) {
     const std::filesystem::path path = bitmap.file("filename");
-    const bool is_raw = bitmap.boolean("raw").value_or(false);
-    return add_texture_by(scene, path, content, repeats(bitmap), [&] {
-        TextureDescription image = read_texture(path, is_raw ? TextureContent::Normal : TextureContent::Color,
-                                                repeats(bitmap), scene.warnings);
+    const bool wraps = repeats(bitmap);
+    const float gamma = gamma_of(bitmap);
+    return add_texture_by(scene, path, content, wraps, [&] {
+        TextureDescription image = read_bitmap(path, gamma, wraps, scene);
         image.content = content;
         for (glm::vec4& texel : image.texels) texel.*channel = luminance(Vec3f(texel));
         return image;
@@ -126,7 +167,11 @@ std::optional<std::uint32_t> mitsuba_image(const MitsubaObject& texture, Texture
         return static_cast<std::uint32_t>(scene.textures.size() - 1);
     }
     if (texture.type() != "bitmap") return std::nullopt;
-    const std::uint32_t image = add_texture(scene, texture.file("filename"), content, repeats(texture));
+    if (texture.text("filter_type") == "nearest") texture.note("images are interpolated between their pixels");
+    if (content != TextureContent::Color) gamma_of(texture);  // of numbers, which nothing decodes
+    const std::uint32_t image = content == TextureContent::Color
+                                    ? add_colors(texture, scene)
+                                    : add_texture(scene, texture.file("filename"), content, repeats(texture));
     return image == kNoTexture ? std::nullopt : std::optional(image);
 }
 

@@ -1,6 +1,7 @@
 #include "core/io/mitsuba/xml_file.h"
 
 #include <algorithm>
+#include <array>
 
 #include <fmt/format.h>
 
@@ -14,9 +15,31 @@ namespace pl {
 
 namespace fs = std::filesystem;
 
-MitsubaFile::MitsubaFile(const fs::path& path) : folder_(path.parent_path()) { read(path, 0); }
+namespace {
+
+/// Properties that decide how Mitsuba works, or how it writes a file, but nothing that a picture shows.
+constexpr std::array<std::string_view, 22> kWithoutEffect = {
+    "rr_depth",     "sampling_weight",  "sample_visible",  "samples_per_pass",
+    "block_size",   "timeout",          "pixel_format",    "component_format",
+    "file_format",  "banner",           "sample_border",   "high_quality_edges",
+    "attach_log",   "fast_math",        "format",          "accel",
+    "cache",        "mis_compensation", "shading_samples", "emitter_samples",
+    "bsdf_samples", "collapse"};
+/// Likewise of objects; phase functions are those of media that scatter nothing.
+constexpr std::array<std::string_view, 3> kObjectsWithoutEffect = {"sampler", "rfilter", "phase"};
+
+bool contains(const auto& names, std::string_view name) { return std::ranges::find(names, name) != names.end(); }
+
+}  // namespace
+
+MitsubaFile::MitsubaFile(const fs::path& path) : shared_(std::make_unique<MitsubaShared>()) {
+    shared_->folder = path.parent_path();
+    read(path, 0);
+}
 
 MitsubaFile::~MitsubaFile() = default;
+
+SceneNotes& MitsubaFile::notes() { return shared_->notes; }
 
 void MitsubaFile::read(const fs::path& path, int depth) {
     constexpr int kDeepest = 8;
@@ -29,10 +52,8 @@ void MitsubaFile::read(const fs::path& path, int depth) {
     texts_.push_back(std::make_unique<MitsubaText>());
     MitsubaText& text = *texts_.back();
     text.path = path;
-    text.folder = folder_;
     text.text = read_text_file(path);
-    text.parameters = &parameters_;
-    text.notes = &notes_;
+    text.shared = shared_.get();
     const pugi::xml_parse_result result =
         text.document.load_buffer(text.text.data(), text.text.size(), pugi::parse_default, pugi::encoding_utf8);
     if (!result) fail_at(path, text.line_of(result.offset), fmt::format("not valid XML: {}", result.description()));
@@ -41,26 +62,57 @@ void MitsubaFile::read(const fs::path& path, int depth) {
 }
 
 void MitsubaFile::take(const MitsubaText& text, int depth) {
-    for (const MitsubaObject& object : MitsubaObject(text.document.child("scene"), text).children()) {
-        if (object.element() == "include") {
-            const fs::path path = path_inside(folder_, object.attribute("filename"));
-            if (path.empty()) {
-                object.fail(fmt::format("'filename': expected a file in the folder of the scene, got {}",
-                                        in_quotes(object.attribute("filename"))));
-            }
-            read(path, depth + 1);
-        } else if (object.element() == "default") {
-            parameters_.try_emplace(object.attribute("name"), object.attribute("value"));
-        } else {
-            objects_.push_back(object);
-            if (const std::string id = object.attribute("id"); !id.empty()) ids_.try_emplace(id, object);
-        }
+    for (const MitsubaObject& object : MitsubaObject(text.document.child("scene"), text).children())
+        take(object, depth);
+    // Those inside of others, too.
+    text.for_each_object([&](const MitsubaObject& object) {
+        const std::string id = object.attribute("id");
+        if (!id.empty() && object.element() != "ref" && object.element() != "alias")
+            shared_->ids.try_emplace(id, object);
+    });
+}
+
+void MitsubaFile::take(const MitsubaObject& object, int depth) {
+    const std::string element = object.element();
+    if (element == "include") {
+        read(object.file_named("filename", object.attribute("filename")), depth + 1);
+    } else if (element == "default") {
+        shared_->parameters.try_emplace(object.attribute("name"), object.attribute("value"));
+    } else if (element == "path") {
+        add_folder(object);
+    } else if (element == "alias") {
+        shared_->aliases.try_emplace(object.attribute("as"), object.attribute("id"));
+    } else {
+        objects_.push_back(object);
     }
 }
 
-MitsubaObject MitsubaFile::by_id(const std::string& id) const {
-    const auto known = ids_.find(id);
-    return known == ids_.end() ? MitsubaObject() : known->second;
+/// Of a scene that is a few folders below what it shares with others, so that it names folders above its own.
+void MitsubaFile::add_folder(const MitsubaObject& path) {
+    constexpr auto kMostUp = 3;
+    const fs::path name = fs::path(path.attribute("value")).lexically_normal();
+    if (name.is_absolute() || std::ranges::count(name, fs::path("..")) > kMostUp)
+        path.note(fmt::format("folders of 'path' that are absolute, or more than {} above the scene, are left out",
+                              kMostUp));
+    else
+        shared_->others.push_back(shared_->folder / name);
+}
+
+void MitsubaFile::note_unused() {
+    for (const auto& text : texts_) text->for_each_object([](const MitsubaObject& object) { object.note_unused(); });
+}
+
+void MitsubaObject::note_unused() const {
+    const MitsubaShared& shared = *text_->shared;
+    if (!shared.read.contains(identity()) || shared.left_out.contains(identity())) return;
+    for (const MitsubaObject& child : children()) {
+        if (shared.used.contains(child.identity()) || contains(kWithoutEffect, child.name()) ||
+            contains(kObjectsWithoutEffect, child.element()))
+            continue;
+        const std::string name = child.attribute("name");
+        child.note(fmt::format("{} of {} {} is not used", name.empty() ? "a " + child.element() : in_quotes(name),
+                               element(), in_quotes(type())));
+    }
 }
 
 }  // namespace pl

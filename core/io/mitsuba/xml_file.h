@@ -2,53 +2,57 @@
 #pragma once
 
 #include <filesystem>
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <glm/glm.hpp>
 #include <pugixml.hpp>
 
+#include "core/io/mitsuba/spectra.h"
 #include "core/io/scene_notes.h"
 
 namespace pl {
 
 struct MitsubaText;
+struct MitsubaShared;
 
 /// One element, `<bsdf type="diffuse">` or `<float name="fov">`. Names of elements, types and properties are compared in the
-/// spelling of Mitsuba 3: `toWorld` of 0.x is `to_world`. Missing properties are nothing; malformed ones throw Error(Input) with file
-/// and line.
+/// spelling of Mitsuba 3: `toWorld` of 0.x is `to_world`, `light` is `emitter`. Missing properties are nothing; malformed ones throw
+/// Error(Input) with file and line. A `ref` stands for the object that it names. MitsubaFile::note_unused() tells of properties that
+/// nobody asked for.
 class MitsubaObject {
 public:
     MitsubaObject() = default;
     MitsubaObject(pugi::xml_node node, const MitsubaText& text) : node_(node), text_(&text) {}
 
     explicit operator bool() const { return !node_.empty(); }
-    std::string element() const { return node_.name(); }
+    std::string element() const;
     /// An attribute with its parameters replaced; empty if there is none.
     std::string attribute(const char* name) const;
     std::string type() const { return attribute("type"); }
     std::string name() const;
 
     std::vector<MitsubaObject> children() const;
-    /// The first child of one of these names of properties, whatever its element.
+    /// The object that this one stands for: the one with its id if it is a `ref`. Throws Error(Input) if there is none.
+    MitsubaObject target() const;
+    /// What the first child with this name stands for, whatever its element.
     MitsubaObject property(const std::string& name) const;
-    /// The first child element of this kind.
-    MitsubaObject child(const std::string& element) const;
+    /// All objects of a kind of element that are inside, in their order.
+    std::vector<MitsubaObject> parts(const std::string& element) const;
+    /// The first of them, or nothing.
+    MitsubaObject part(const std::string& element) const;
 
     std::optional<float> number(const std::string& name) const;
     std::optional<bool> boolean(const std::string& name) const;
     std::optional<std::string> text(const std::string& name) const;
     std::optional<glm::vec3> color(const std::string& name) const;
     std::optional<glm::vec3> point(const std::string& name) const;
-    /// A path inside of the folder of the scene.
+    /// A path inside of the folder of the scene, or of one that its `path` elements name.
     std::filesystem::path file(const std::string& name) const;
     glm::dmat4 transform(const std::string& name) const;
-
-    /// Color of an element `rgb`, `spectrum` or `float` itself.
-    glm::vec3 own_color() const;
 
     /// Whether the file says that it is of Mitsuba 0.x.
     bool is_of_version_0() const;
@@ -58,11 +62,24 @@ public:
     const void* identity() const { return node_.internal_object(); }
     [[noreturn]] void fail(const std::string& what) const;
     void note(const std::string& kind) const;
+    /// A note about an object as a whole: nothing else is told of it.
+    void leave_out(const std::string& kind) const;
 
 private:
+    friend class MitsubaFile;
+
     std::vector<double> numbers(const std::string& words) const;
     double number_or(const char* attribute, double standard) const;
+    std::filesystem::path file_named(const std::string& name, const std::string& value) const;
     glm::dmat4 step() const;
+    bool is_color() const;
+    glm::vec3 own_color() const;
+    glm::vec3 color_of_type(const std::string& type) const;
+    glm::vec3 color_of_words(const std::string& words) const;
+    glm::vec3 color_of_pairs(const std::string& words) const;
+    glm::vec3 spectrum_color(const WavelengthSpectrum& spectrum) const;
+    bool shines() const;
+    void note_unused() const;
 
     pugi::xml_node node_;
     const MitsubaText* text_ = nullptr;
@@ -80,23 +97,25 @@ public:
     static constexpr int kMostIncludes = 64;
 
     const std::vector<MitsubaObject>& objects() const { return objects_; }
-    /// The object with this id; empty if there is none.
-    MitsubaObject by_id(const std::string& id) const;
-    SceneNotes& notes() { return notes_; }
+    SceneNotes& notes();
+    /// Notes what is inside of objects that were read, but was not asked for. To be called after all else.
+    void note_unused();
     const std::vector<std::filesystem::path>& files() const { return files_; }
 
 private:
     void read(const std::filesystem::path& path, int depth);
     void take(const MitsubaText& text, int depth);
+    void take(const MitsubaObject& object, int depth);
+    void add_folder(const MitsubaObject& path);
 
-    std::filesystem::path folder_;
-    std::map<std::string, std::string> parameters_;
-    std::map<std::string, MitsubaObject> ids_;
+    std::unique_ptr<MitsubaShared> shared_;
     std::vector<std::unique_ptr<MitsubaText>> texts_;
     std::vector<MitsubaObject> objects_;
     std::vector<std::filesystem::path> files_;
-    SceneNotes notes_;
 };
+
+/// Words between blanks and commas.
+std::vector<std::string_view> mitsuba_words(std::string_view text);
 
 /// "toWorld" and "to_world" as "to_world", "intIOR" as "int_ior".
 std::string mitsuba_name(const std::string& name);

@@ -1,5 +1,6 @@
 #include <cctype>
 #include <string_view>
+#include <system_error>
 
 #include <fmt/format.h>
 #include <glm/gtc/matrix_transform.hpp>
@@ -16,17 +17,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::vector<std::string_view> words_of(std::string_view text) {
-    std::vector<std::string_view> words;
-    constexpr std::string_view kBetween = " ,\t\r\n";
-    for (std::size_t at = text.find_first_not_of(kBetween); at != std::string_view::npos;) {
-        const std::size_t end = std::min(text.find_first_of(kBetween, at), text.size());
-        words.push_back(text.substr(at, end - at));
-        at = text.find_first_not_of(kBetween, end);
-    }
-    return words;
-}
-
 /// Replaces $name by its value, the longest name that fits first.
 std::string replaced_parameters(std::string text, const std::map<std::string, std::string>& parameters) {
     constexpr std::size_t kLongest = 65536;
@@ -42,6 +32,17 @@ std::string replaced_parameters(std::string text, const std::map<std::string, st
 
 }  // namespace
 
+std::vector<std::string_view> mitsuba_words(std::string_view text) {
+    std::vector<std::string_view> words;
+    constexpr std::string_view kBetween = " ,\t\r\n";
+    for (std::size_t at = text.find_first_not_of(kBetween); at != std::string_view::npos;) {
+        const std::size_t end = std::min(text.find_first_of(kBetween, at), text.size());
+        words.push_back(text.substr(at, end - at));
+        at = text.find_first_not_of(kBetween, end);
+    }
+    return words;
+}
+
 std::string mitsuba_name(const std::string& name) {
     std::string result;
     for (std::size_t i = 0; i < name.size(); ++i) {
@@ -55,7 +56,7 @@ std::string mitsuba_name(const std::string& name) {
 }
 
 std::string MitsubaObject::attribute(const char* name) const {
-    return text_ == nullptr ? "" : replaced_parameters(node_.attribute(name).value(), *text_->parameters);
+    return text_ == nullptr ? "" : replaced_parameters(node_.attribute(name).value(), text_->shared->parameters);
 }
 
 std::string MitsubaObject::name() const { return mitsuba_name(attribute("name")); }
@@ -67,15 +68,52 @@ std::vector<MitsubaObject> MitsubaObject::children() const {
     return all;
 }
 
+std::string MitsubaObject::element() const {
+    const std::string name = node_.name();
+    return name == "light" ? "emitter" : name == "camera" ? "sensor" : name;
+}
+
+MitsubaObject MitsubaObject::target() const {
+    if (element() != "ref") return *this;
+    std::string id = attribute("id");
+    const auto alias = text_->shared->aliases.find(id);
+    if (alias != text_->shared->aliases.end()) id = alias->second;
+    const auto known = text_->shared->ids.find(id);
+    if (known == text_->shared->ids.end())
+        fail(fmt::format("'ref': expected the id of an object, got {}", in_quotes(attribute("id"))));
+    return known->second;
+}
+
 MitsubaObject MitsubaObject::property(const std::string& name) const {
-    for (const MitsubaObject& object : children())
-        if (object.name() == name) return object;
+    if (text_ != nullptr) text_->shared->read.insert(identity());
+    for (const MitsubaObject& object : children()) {
+        if (object.name() != name) continue;
+        text_->shared->used.insert(object.identity());
+        return object.target();
+    }
     return {};
 }
 
-MitsubaObject MitsubaObject::child(const std::string& element) const {
-    for (const MitsubaObject& object : children())
-        if (object.element() == element) return object;
+std::vector<MitsubaObject> MitsubaObject::parts(const std::string& element) const {
+    std::vector<MitsubaObject> all;
+    if (text_ != nullptr) text_->shared->read.insert(identity());
+    for (const MitsubaObject& object : children()) {
+        const MitsubaObject target = object.target();
+        if (target.element() != element) continue;
+        text_->shared->used.insert(object.identity());
+        all.push_back(target);
+    }
+    return all;
+}
+
+MitsubaObject MitsubaObject::part(const std::string& element) const {
+    if (text_ != nullptr) text_->shared->read.insert(identity());
+    for (const MitsubaObject& object : children()) {
+        const MitsubaObject target = object.target();
+        if (target.element() != element) continue;
+        text_->shared->used.insert(object.identity());
+        return target;
+    }
     return {};
 }
 
@@ -89,11 +127,16 @@ std::string MitsubaObject::place() const {
 
 void MitsubaObject::fail(const std::string& what) const { throw Error(ErrorKind::Input, place() + ": " + what); }
 
-void MitsubaObject::note(const std::string& kind) const { text_->notes->add(kind, place()); }
+void MitsubaObject::note(const std::string& kind) const { text_->shared->notes.add(kind, place()); }
+
+void MitsubaObject::leave_out(const std::string& kind) const {
+    note(kind);
+    text_->shared->left_out.insert(identity());
+}
 
 std::vector<double> MitsubaObject::numbers(const std::string& words) const {
     std::vector<double> values;
-    for (const std::string_view word : words_of(words)) {
+    for (const std::string_view word : mitsuba_words(words)) {
         const std::optional<double> value = parse_number(word);
         if (!value) fail(fmt::format("'{}': expected finite numbers, got {}", attribute("name"), in_quotes(word)));
         values.push_back(*value);
@@ -108,7 +151,12 @@ double MitsubaObject::number_or(const char* attribute_name, double standard) con
 
 std::optional<float> MitsubaObject::number(const std::string& name) const {
     const MitsubaObject object = property(name);
-    if (!object || object.attribute("value").empty()) return std::nullopt;
+    if (!object) return std::nullopt;
+    if (object.attribute("value").empty()) {
+        object.leave_out(
+            fmt::format("{} of {} {} is no number, and is not used", in_quotes(name), element(), in_quotes(type())));
+        return std::nullopt;
+    }
     const std::vector<double> values = object.numbers(object.attribute("value"));
     if (values.size() != 1)
         object.fail(fmt::format("'{}': expected a number, got {}", name, in_quotes(object.attribute("value"))));
@@ -127,42 +175,6 @@ std::optional<std::string> MitsubaObject::text(const std::string& name) const {
     return object ? std::optional(object.attribute("value")) : std::nullopt;
 }
 
-glm::vec3 MitsubaObject::own_color() const {
-    const std::string value = attribute("value");
-    if (value.find(':') != std::string::npos) {
-        note("spectra are shown as the mean of their values");
-        double sum = 0.0;
-        const std::vector<std::string_view> pairs = words_of(value);
-        for (const std::string_view pair : pairs) {
-            const std::vector<double> number = numbers(std::string(pair.substr(pair.find(':') + 1)));
-            if (number.size() != 1) {
-                fail(fmt::format("'{}': expected pairs of a wavelength and a value such as 400:0.5, got {}",
-                                 attribute("name"), in_quotes(pair)));
-            }
-            sum += number[0];
-        }
-        return glm::vec3(static_cast<float>(sum / static_cast<double>(pairs.size())));
-    }
-    if (value.starts_with('#')) {
-        note("colors as #rrggbb are left out: gray of one half");
-        return glm::vec3(0.5f);
-    }
-    const std::vector<double> values = numbers(value);
-    if (values.size() != 1 && values.size() != 3)
-        fail(fmt::format("'{}': expected one or three numbers, got {}", attribute("name"), in_quotes(value)));
-    glm::vec3 color(0.0f);
-    for (int i = 0; i < 3; ++i)
-        color[i] = std::max(static_cast<float>(values[values.size() == 3 ? static_cast<std::size_t>(i) : 0]), 0.0f);
-    return color;
-}
-
-std::optional<glm::vec3> MitsubaObject::color(const std::string& name) const {
-    const MitsubaObject object = property(name);
-    const std::string element = object.element();
-    const bool is_color = element == "rgb" || element == "spectrum" || element == "float" || element == "srgb";
-    return is_color ? std::optional(object.own_color()) : std::nullopt;
-}
-
 std::optional<glm::vec3> MitsubaObject::point(const std::string& name) const {
     const MitsubaObject object = property(name);
     if (!object) return std::nullopt;
@@ -171,17 +183,29 @@ std::optional<glm::vec3> MitsubaObject::point(const std::string& name) const {
     return glm::vec3(object.number_or("x", 0.0), object.number_or("y", 0.0), object.number_or("z", 0.0));
 }
 
-fs::path MitsubaObject::file(const std::string& name) const {
-    const std::string value = text(name).value_or("");
-    const fs::path path = path_inside(text_->folder, value);
+fs::path MitsubaObject::file(const std::string& name) const { return file_named(name, text(name).value_or("")); }
+
+fs::path MitsubaObject::file_named(const std::string& name, const std::string& value) const {
+    const MitsubaShared& shared = *text_->shared;
+    for (auto folder = shared.others.rbegin(); folder != shared.others.rend(); ++folder) {
+        const fs::path path = path_inside(*folder, value);
+        std::error_code ignored;
+        if (!path.empty() && fs::exists(path, ignored)) return path;
+    }
+    const fs::path path = path_inside(shared.folder, value);
     if (path.empty())
         fail(fmt::format("'{}': expected a file in the folder of the scene, got {}", name, in_quotes(value)));
     return path;
 }
 
 glm::dmat4 MitsubaObject::transform(const std::string& name) const {
+    MitsubaObject given = property(name);
+    if (given.element() == "animation") {
+        given.note("motion is left out: shown as at its first time");
+        given = given.part("transform");
+    }
     glm::dmat4 matrix(1.0);
-    for (const MitsubaObject& part : property(name).children()) matrix = part.step() * matrix;
+    for (const MitsubaObject& part : given.children()) matrix = part.step() * matrix;
     return matrix;
 }
 

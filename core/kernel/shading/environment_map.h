@@ -8,7 +8,8 @@
 
 namespace pl {
 
-/// The first row is up (+y); without a turn the middle column is -z and the columns to its right approach +x.
+/// The first row is up (+y); without a turn the middle column is -z and the columns to its right approach +x: in the world, or in axes of
+/// the map's own, which are orthonormal and may be left-handed.
 struct EnvironmentMap {
     Span<const Vec3f> texels;      ///< [row][column], radiance, row 0 at the top; empty: no map
     Span<const float> row_cdf;     ///< [row], marginal cumulative probabilities; multiples of 2^-24, the last one 1
@@ -16,21 +17,42 @@ struct EnvironmentMap {
     std::uint32_t width = 0;
     std::uint32_t height = 0;
     float turn = 0.0f;  ///< counter-clockwise about +y, in turns
+    bool has_axes = false;
+    Vec3f axis_x{1.0f, 0.0f, 0.0f};  ///< in the world, as the next two
+    Vec3f axis_y{0.0f, 1.0f, 0.0f};
+    Vec3f axis_z{0.0f, 0.0f, 1.0f};
 
     PL_INLINE bool empty() const { return texels.count == 0; }
 };
+
+/// A direction of the world in the axes of the map.
+template <class N>
+PL_INLINE Real3<N> to_map(const EnvironmentMap& map, const Real3<N>& direction) {
+    if (!map.has_axes) return direction;
+    return {dot(direction, constant_vector<N>(map.axis_x)), dot(direction, constant_vector<N>(map.axis_y)),
+            dot(direction, constant_vector<N>(map.axis_z))};
+}
+
+/// The inverse of to_map().
+template <class N>
+PL_INLINE Real3<N> from_map(const EnvironmentMap& map, const Real3<N>& direction) {
+    if (!map.has_axes) return direction;
+    return scaled(constant_vector<N>(map.axis_x), direction.x) + scaled(constant_vector<N>(map.axis_y), direction.y) +
+           scaled(constant_vector<N>(map.axis_z), direction.z);
+}
 
 /// A direction as a point of the map.
 template <class N>
 struct MapPlaceOf {
     Real2<N> point;         ///< image coordinates: u to the right, v down, both in [0, 1]
-    typename N::Real sine;  ///< of the angle from +y
+    typename N::Real sine;  ///< of the angle from the map's +y
 };
 using MapPlace = MapPlaceOf<One>;
 
 /// The place of a unit direction.
 template <class N>
-PL_INLINE MapPlaceOf<N> map_place(const EnvironmentMap& map, const Real3<N>& direction) {
+PL_INLINE MapPlaceOf<N> map_place(const EnvironmentMap& map, const Real3<N>& world_direction) {
+    const Real3<N> direction = to_map(map, world_direction);
     const typename N::Real u = 0.5f + turns_of<N>(direction.x, -direction.z) + map.turn;
     const typename N::Real sine = N::sqrt(direction.x * direction.x + direction.z * direction.z);
     return {{u - N::floor(u), 2.0f * turns_of<N>(sine, direction.y)}, sine};
@@ -144,7 +166,8 @@ PL_INLINE MapDirection<N> sample_map_direction(const EnvironmentMap& map, const 
     const SineCosineOf<N> longitude = sine_cosine_of_turns<N>(point.x - 0.5f - map.turn);
     const SineCosineOf<N> colatitude = sine_cosine_of_turns<N>(0.5f * point.y);
     const typename N::Real sine = max_real<N>(colatitude.sine, 0.0f);
-    return {{sine * longitude.sine, colatitude.cosine, -sine * longitude.cosine}, {point, sine}};
+    const Real3<N> direction{sine * longitude.sine, colatitude.cosine, -sine * longitude.cosine};
+    return {from_map(map, direction), {point, sine}};
 }
 
 }  // namespace pl

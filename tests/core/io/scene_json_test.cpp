@@ -176,6 +176,7 @@ TEST_CASE("Values of a wrong type or range are refused with file and line") {
         Case{"\"environment\": {\"map\": \"../sky.hdr\"}", "in the folder of the scene"},
         Case{"\"environment\": {\"map\": \"\"}", "in the folder of the scene"},
         Case{"\"environment\": {\"scale\": -2}", "at least 0"},
+        Case{"\"environment\": {\"axes\": [[1, 0, 0], [0, 1, 0]]}", "three directions"},
         Case{"\"environment\": {\"rotation_deg\": \"left\"}", "expected a number"},
         Case{"\"environment\": {\"sun\": {\"direction\": [0, 0, 0]}}", "no length"},
         Case{"\"environment\": {\"sun\": {\"angle_deg\": 0}}", "within [0.01, 180]"},

@@ -52,10 +52,25 @@ TextureDescription texture_of(std::vector<glm::vec4> texels, TextureContent cont
 
 }  // namespace
 
-TEST_CASE("write_scene: a shifted picture") {
+TEST_CASE("write_scene: a shifted picture, and a mirrored one") {
     SceneDescription scene = load_scene("cornell", kAssets);
     scene.camera.shift = {0.5f, -0.25f};
     CHECK(rewritten(scene).camera.shift == scene.camera.shift);
+    CHECK_FALSE(rewritten(scene).camera.is_mirrored);
+    scene.camera.is_mirrored = true;
+    CHECK(rewritten(scene).camera.is_mirrored);
+}
+
+TEST_CASE("write_scene: an environment map in axes of its own") {
+    SceneDescription scene = triangle_of({.name = "wall", .albedo = glm::vec3(0.5f)});
+    scene.environment_map = {.width = 2, .height = 1, .rotation_deg = 20.0f, .texels = {glm::vec3(1), glm::vec3(2)}};
+    CHECK(rewritten(scene).environment_map.axes == glm::mat3(1.0f));
+    scene.environment_map.axes = glm::mat3(0, 0, 1, 0, 1, 0, 1, 0, 0);
+    const SceneDescription read = rewritten(scene);
+    CHECK(read.environment_map.axes == scene.environment_map.axes);
+    CHECK(scene_hash(read) == scene_hash(scene));
+    scene.environment_map.axes[0] = {0, 0, 2};
+    CHECK_THROWS_AS(rewritten(scene), Error);
 }
 
 TEST_CASE("write_scene: shipped scenes without images have the same hash, camera and settings") {
@@ -91,7 +106,7 @@ TEST_CASE("write_scene: lights without extent, and lights that are refused") {
     for (int wrong = 0; wrong < 3; ++wrong) {
         SceneDescription bad = scene;
         if (wrong == 0) bad.punctual_lights[0].intensity.x = -1.0f;
-        if (wrong == 1) bad.punctual_lights[1].inner_deg = 20.5f;
+        if (wrong == 1) bad.punctual_lights[1].inner_deg = 21.0f;
         if (wrong == 2) bad.punctual_lights[2].direction = glm::vec3(0.0f);
         CHECK_THROWS_AS(rewritten(bad), Error);
     }

@@ -1,6 +1,7 @@
 // Mitsuba scenes of 0.x and 3: emitters, camera, parameters and includes, and files that are refused.
 #include "core/io/mitsuba/mitsuba.h"
 
+#include "core/io/image.h"
 #include "tests/core/io/mitsuba/mitsuba_text.h"
 
 using namespace pl;
@@ -43,8 +44,12 @@ TEST_CASE("mitsuba: point, spot and directional emitters") {
     CHECK(scene.punctual_lights[2].kind == PunctualKind::Directional);
     CHECK(scene.punctual_lights[2].direction == glm::vec3(0, -1, 0));
     CHECK(scene.punctual_lights[2].intensity == glm::vec3(7.0f));
+    const SceneDescription hard =
+        load_mitsuba_text(kSquare + spot + "30\"/><float name=\"beam_width\" value=\"30\"/></emitter>");
+    CHECK(hard.punctual_lights.at(0).inner_deg == 30.0f);
+    CHECK(hard.punctual_lights.at(0).outer_deg == 30.0f);
     CHECK_THAT(input_error([&] { load_mitsuba_text(kSquare + spot + "0\"/></emitter>"); }),
-               contains("beam_width < cutoff_angle"));
+               contains("0 < cutoff_angle"));
 }
 
 TEST_CASE("mitsuba: the camera, its angle across or upwards, and the size of the picture") {
@@ -125,6 +130,111 @@ TEST_CASE("mitsuba: parameters and included files") {
     folder.write("again.xml", scene_of("<include filename=\"again.xml\"/>"));
     CHECK_THAT(input_error([&] { load_mitsuba_text(folder, "<include filename=\"again.xml\"/>"); }),
                contains("in a circle?"));
+}
+
+TEST_CASE("mitsuba: ids of objects inside of others, and other names of them") {
+    const SceneDescription scene = load_mitsuba_text(
+        "<bsdf type=\"twosided\"><bsdf type=\"diffuse\" id=\"wall\"><rgb name=\"reflectance\" "
+        "value=\"0.3\"/></bsdf></bsdf><alias id=\"wall\" as=\"paint\"/><shape type=\"rectangle\"><ref "
+        "id=\"wall\"/></shape><shape type=\"rectangle\"><ref id=\"paint\"/></shape>");
+    REQUIRE(scene.materials.size() == 1);
+    CHECK(scene.materials[0].albedo == glm::vec3(0.3f));
+}
+
+TEST_CASE("mitsuba: folders in which files are searched, also above that of the scene") {
+    const TemporaryFolder folder;
+    folder.write("common/q.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    folder.write("common/b.xml", scene_of("<bsdf type=\"diffuse\" id=\"b\"/>"));
+    const std::string content = "<include filename=\"b.xml\"/><shape type=\"obj\"><string name=\"filename\" "
+                                "value=\"q.obj\"/><ref id=\"b\"/></shape>";
+    const auto load = [&](const std::string& path) {
+        const auto file = folder.write("scenes/a/s.xml", scene_of("<path value=\"" + path + "\"/>" + content));
+        return load_scene(file.string(), "");
+    };
+    CHECK(load("../../common").triangles.size() == 1);
+    const std::string above = "b.xml";
+    CHECK_THAT(input_error([&] { load("../../../../common"); }), contains(above));
+    CHECK_THAT(input_error([&] { load((folder.path() / "common").string()); }), contains(above));
+    CHECK(is_told(load_mitsuba_text(kSquare + "<path value=\"/etc\"/>"), "folders of 'path' that are absolute"));
+}
+
+TEST_CASE("mitsuba: the depth of the integrator is a preset") {
+    const auto depth = [](const std::string& integrator) {
+        return std::string(load_mitsuba_text(kSquare + integrator).setting("max-depth"));
+    };
+    const auto path = [](const std::string& value) {
+        return "<integrator type=\"path\"><integer name=\"maxDepth\" value=\"" + value +
+               "\"/><integer name=\"rrDepth\" value=\"5\"/></integrator>";
+    };
+    CHECK(depth("<integrator type=\"path\"/>").empty());
+    CHECK(depth(path("-1")).empty());
+    CHECK(depth(path("2")) == "2");
+    CHECK(depth(path("100000")) == "65536");
+    CHECK(depth("<integrator type=\"direct\"/>") == "2");
+    CHECK(depth("<integrator type=\"aov\">" + path("3") + "</integrator>") == "3");
+    CHECK(is_told(load_mitsuba_text(kSquare + "<integrator type=\"ptracer\"/>"),
+                  "integrators of the type 'ptracer' are left out"));
+    CHECK(is_told(load_mitsuba_text(kSquare + "<integrator type=\"path\"><boolean name=\"hide_emitters\" "
+                                              "value=\"true\"/></integrator>"),
+                  "'hide_emitters' is left out"));
+}
+
+TEST_CASE("mitsuba: properties that nothing asked for are told once for each kind of object") {
+    const std::string sphere = "<shape type=\"sphere\"><float name=\"spin\" value=\"1\"/></shape>";
+    const SceneDescription scene = load_mitsuba_text(
+        sphere + sphere +
+        "<bsdf type=\"diffuse\" id=\"not shown\"><float name=\"gloss\" value=\"1\"/></bsdf>"
+        "<emitter type=\"projector\"><float name=\"focus\" value=\"1\"/></emitter>"
+        "<sensor type=\"perspective\"><sampler type=\"independent\"/><film type=\"hdrfilm\"><rfilter "
+        "type=\"box\"/><string name=\"pixel_format\" value=\"rgb\"/><float name=\"exposure\" "
+        "value=\"1\"/></film></sensor>");
+    CHECK(is_told(scene, "'spin' of shape 'sphere' is not used (2 in all)"));
+    CHECK(is_told(scene, "'exposure' of film 'hdrfilm' is not used (1 in all)"));
+    CHECK(std::ranges::count_if(scene.warnings, [](const std::string& text) {
+              return text.find("is not used") != std::string::npos;
+          }) == 2);
+    CHECK(is_told(load_mitsuba_text("<shape type=\"rectangle\"><bsdf type=\"roughplastic\"><texture type=\"bitmap\" "
+                                    "name=\"alpha\"/></bsdf></shape>"),
+                  "'alpha' of bsdf 'roughplastic' is no number, and is not used"));
+}
+
+TEST_CASE("mitsuba: without the file of a mesh the rest is shown") {
+    const SceneDescription scene =
+        load_mitsuba_text(kSquare + "<shape type=\"obj\"><string name=\"filename\" value=\"none.obj\"/></shape>");
+    CHECK(scene.triangles.size() == 2);
+    CHECK(is_told(scene, "none.obj: its shape is left out"));
+}
+
+TEST_CASE("mitsuba: environment maps are turned, tilted and mirrored as their places are") {
+    const TemporaryFolder folder;
+    write_pfm(folder.path() / "e.pfm", {.width = 2, .height = 1, .pixels = {glm::vec3(1.0f), glm::vec3(2.0f)}});
+    const auto map = [&](const std::string& steps) {
+        const SceneDescription scene = load_mitsuba_text(
+            folder, kSquare +
+                        "<emitter type=\"envmap\"><string name=\"filename\" value=\"e.pfm\"/><transform "
+                        "name=\"to_world\">" +
+                        steps + "</transform></emitter>");
+        CHECK(std::ranges::none_of(
+            scene.warnings, [](const std::string& text) { return text.find("stretched") != std::string::npos; }));
+        return scene.environment_map;
+    };
+    const auto is_near = [](const glm::mat3& a, const glm::mat3& b) {
+        float most = 0.0f;
+        for (int i = 0; i < 3; ++i) most = std::max(most, glm::length(a[i] - b[i]));
+        return most < 1e-6f;
+    };
+    const EnvironmentMapDescription upright = map("<rotate y=\"1\" angle=\"30\"/><translate x=\"5\"/>");
+    CHECK(upright.axes == glm::mat3(1.0f));
+    CHECK(upright.rotation_deg == Approx(210.0f));
+    const EnvironmentMapDescription tilted = map("<rotate x=\"1\" angle=\"90\"/><scale value=\"3\"/>");
+    CHECK(tilted.rotation_deg == 180.0f);
+    CHECK(is_near(tilted.axes, glm::mat3(1, 0, 0, 0, 0, 1, 0, -1, 0)));  // its up is +z
+    CHECK(is_near(map("<scale x=\"-1\"/>").axes, glm::mat3(-1, 0, 0, 0, 1, 0, 0, 0, 1)));
+    CHECK(is_near(map("<scale y=\"-1\"/>").axes, glm::mat3(1, 0, 0, 0, -1, 0, 0, 0, 1)));
+    const SceneDescription stretched = load_mitsuba_text(
+        folder, kSquare + "<emitter type=\"envmap\"><string name=\"filename\" value=\"e.pfm\"/><transform "
+                          "name=\"to_world\"><scale x=\"2\"/></transform></emitter>");
+    CHECK(is_told(stretched, "environment maps that are stretched"));
 }
 
 TEST_CASE("mitsuba: broken files are refused with file and line", "[hard]") {

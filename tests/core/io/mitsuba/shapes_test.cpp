@@ -177,6 +177,31 @@ TEST_CASE("mitsuba: transformations in their order, of both spellings, mirrored 
               .z == Approx(-4.0));
 }
 
+TEST_CASE("mitsuba: mirrored spheres, and meshes without normals, turn inside out, others keep their front") {
+    const auto mirrored = [](const std::string& type) {
+        return load_mitsuba_text("<shape type=\"" + type +
+                                 "\"><transform name=\"to_world\"><scale x=\"-1\"/></transform></shape>");
+    };
+    CHECK(volume(mirrored("sphere")) < 0.0);
+    CHECK(volume(mirrored("cube")) > 0.0);
+    const TemporaryFolder folder;
+    const std::string corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+    folder.write("corners.obj", corners + "f 1 2 3\n");
+    folder.write("normals.obj", corners + "vn 0 0 1\nf 1//1 2//1 3//1\n");
+    const auto facing = [&](const std::string& name, const std::string& more = "") {
+        return normal_and_area(load_mitsuba_text(folder, "<shape type=\"obj\"><string name=\"filename\" value=\"" +
+                                                             name +
+                                                             "\"/><transform name=\"to_world\"><scale x=\"-1\"/>"
+                                                             "</transform>" +
+                                                             more + "</shape>"))
+            .z;
+    };
+    CHECK(facing("corners.obj") == Approx(-0.5));
+    CHECK(facing("normals.obj") == Approx(0.5));
+    CHECK(facing("normals.obj", "<boolean name=\"face_normals\" value=\"true\"/>") == Approx(-0.5));
+    CHECK(facing("corners.obj", "<boolean name=\"flip_normals\" value=\"true\"/>") == Approx(0.5));
+}
+
 TEST_CASE("mitsuba: OBJ and PLY files, text and binary, smooth unless they say otherwise") {
     const TemporaryFolder folder;
     folder.write("m/tent.obj", "v 0 0 0\nv 1 0 0\nv 0 1 -1\nv 0 -1 -1\nf 1 2 3\nf 1 4 2\n");

@@ -65,6 +65,29 @@ TEST_CASE("mitsuba: surfaces, by reference, inside of adapters, and with the val
     CHECK(is_told(plain, "the texture of 'normalmap' is no image, and is left out"));
 }
 
+TEST_CASE("mitsuba: glass that is less dense than what is around it is the other side of one that is denser") {
+    const auto cube = [](const std::string& inside, const std::string& outside) {
+        return load_mitsuba_text("<shape type=\"cube\"><bsdf type=\"dielectric\"><float name=\"int_ior\" value=\"" +
+                                 inside + "\"/><float name=\"ext_ior\" value=\"" + outside + "\"/></bsdf></shape>");
+    };
+    const auto first_corner = [](const SceneDescription& scene) {
+        return scene.positions[scene.triangles[0].vertex.x];
+    };
+    const SceneDescription bubble = cube("1", "1.5");
+    const SceneDescription glass = cube("1.5", "1");
+    CHECK(bubble.materials[0].ior == glass.materials[0].ior);
+    const auto normal = [](const SceneDescription& scene) {
+        const glm::uvec3 v = scene.triangles[0].vertex;
+        return glm::cross(scene.positions[v.y] - scene.positions[v.x], scene.positions[v.z] - scene.positions[v.x]);
+    };
+    CHECK(glm::dot(normal(glass), first_corner(glass)) > 0.0f);
+    CHECK(glm::dot(normal(bubble), first_corner(bubble)) < 0.0f);
+    CHECK_FALSE(is_told(bubble, "index of refraction"));
+    CHECK(surface("<bsdf type=\"dielectric\"><string name=\"int_ior\" value=\"pyrex\"/><float name=\"ext_ior\" "
+                  "value=\"1\"/></bsdf>")
+              .ior == 1.47f);
+}
+
 // A mean width of 0.2 either way.
 TEST_CASE("mitsuba: anisotropic metals, and others that are shown as isotropic") {
     const auto metal = [](const char* type, float along_u, float along_v) {

@@ -70,6 +70,35 @@ TEST_CASE("mitsuba textures: a transformation is that of its own surface alone, 
     CHECK(scene.uvs[scene.triangles[4].uv.y].x == 1.0f);
 }
 
+TEST_CASE("mitsuba textures: values that are raw, or of another gamma, are not decoded from sRGB") {
+    const TemporaryFolder folder;
+    write_png8(folder.path() / "i.png", {.width = 1, .height = 1, .rgb = {128, 128, 128}});
+    const std::string raw = rectangle(diffuse(bitmap("reflectance", "<boolean name=\"raw\" value=\"true\"/>")));
+    const std::string decoded = rectangle(diffuse(bitmap("reflectance", "")));
+    const auto gamma = [](const std::string& value) {
+        return rectangle(diffuse(bitmap("reflectance", "<float name=\"gamma\" value=\"" + value + "\"/>")));
+    };
+    const SceneDescription scene =
+        load_mitsuba_text(folder, raw + decoded + raw + gamma("2.2") + gamma("1") + gamma("-1"));
+    REQUIRE(scene.textures.size() == 3);
+    const auto shown = [&](std::size_t shape) {
+        return scene.textures[scene.materials[scene.triangles[2 * shape].material].textures.albedo].texels[0].x;
+    };
+    const float code = 128.0f / 255.0f;
+    CHECK(shown(0) == Approx(code));
+    CHECK(shown(1) == Approx(0.21586f).epsilon(1e-4));
+    CHECK(shown(2) == Approx(code));
+    CHECK(shown(3) == Approx(std::pow(code, 2.2f)));
+    CHECK(shown(4) == Approx(code));
+    CHECK(shown(5) == shown(1));
+    CHECK(is_told(
+        load_mitsuba_text(
+            folder, rectangle(diffuse(bitmap(
+                        "reflectance", "<string name=\"wrap_mode\" value=\"mirror\"/><string name=\"filter_type\" "
+                                       "value=\"nearest\"/>")))),
+        "'mirror' of textures is shown as repeat"));
+}
+
 TEST_CASE("mitsuba textures: a checkerboard is an image of four squares") {
     const TemporaryFolder folder;
     const SceneDescription scene = load_mitsuba_text(

@@ -87,6 +87,37 @@ TEST_CASE("The map's middle is along -z, its right along +x, its first row up, a
     CHECK(map_point(turned.view().far_lights.map, {-1, 0, 0}).x == Approx(0.5f));
 }
 
+TEST_CASE("A map in axes of its own is turned as a whole, also mirrored, and sampled by the same density") {
+    SceneDescription scene;
+    scene.materials.push_back(gray());
+    add_triangle(scene, Vec3f{0}, Vec3f{1, 0, 0}, Vec3f{0, 1, 0});
+    std::vector<glm::vec3> texels;
+    for (int i = 0; i < 8 * 4; ++i) texels.emplace_back(static_cast<float>(i + 1));
+    scene.environment_map = {.width = 8, .height = 4, .rotation_deg = 30.0f, .texels = texels};
+    const HostScene plain = pack_scene(scene);
+    const float c = std::sqrt(0.5f);
+    for (const glm::mat3& axes : {glm::mat3(1, 0, 0, 0, 0, 1, 0, -1, 0), glm::mat3(-1, 0, 0, 0, 1, 0, 0, 0, 1),
+                                  glm::mat3(c, 0, c, 0, -1, 0, -c, 0, c)}) {
+        scene.environment_map.axes = axes;
+        const HostScene packed = pack_scene(scene);
+        const FarLights& lights = packed.view().far_lights;
+        Uniforms random(5);
+        for (int i = 0; i < 1000; ++i) {
+            const Vec3f local = direction_at(static_cast<double>(random.next()), static_cast<double>(random.next()));
+            CHECK(far_radiance(lights, axes * local).x ==
+                  Approx(far_radiance(plain.view().far_lights, local).x).epsilon(1e-3));
+            CHECK(far_pdf_sa(lights, axes * local) ==
+                  Approx(far_pdf_sa(plain.view().far_lights, local)).epsilon(1e-3));
+            const Vec2f u = random.square();
+            const FarSample turned = sample_far(lights, u, 0.0f);
+            const FarSample own = sample_far(plain.view().far_lights, u, 0.0f);
+            CHECK(glm::length(turned.wi - axes * own.wi) < 1e-5f);
+            CHECK(turned.pdf_sa == own.pdf_sa);
+            CHECK(turned.radiance == own.radiance);
+        }
+    }
+}
+
 TEST_CASE("The density of a map integrates to one, and is that of its samples") {
     for (const NamedMap& hard : hard_maps()) {
         INFO(hard.name);
