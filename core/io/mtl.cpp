@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/error.h"
 #include "core/io/files.h"
 #include "core/io/height_map.h"
 #include "core/io/line_reader.h"
@@ -31,7 +32,13 @@ public:
     TextureAdder(SceneDescription& scene, const fs::path& mtl) : scene_(scene), folder_(mtl.parent_path()) {}
 
     std::uint32_t add(const MtlMap& map, TextureContent content) {
-        return map ? add_texture(scene_, path_of(map.name), content, !map.clamps) : kNoTexture;
+        if (!map) return kNoTexture;
+        const fs::path path = path_of(map.name);
+        if (!path.empty()) return add_texture(scene_, path, content, !map.clamps);
+        return add_texture_by(scene_, folder_ / map.name, content, !map.clamps, [&]() -> TextureDescription {
+            throw Error(ErrorKind::Input, fmt::format("{}: expected a file in the folder of the scene, got {}",
+                                                      folder_.string(), in_quotes(map.name)));
+        });
     }
 
     /// Exporters write images of normals as `map_Bump`, too; an image without colors is one of heights.
@@ -56,10 +63,10 @@ private:
         return texture;
     }
 
-    /// Absolute paths of another computer are looked up by their file name beside the MTL file.
+    /// Absolute paths of another computer are looked up by their file name beside the MTL file. Empty if a link leads out of its folder.
     fs::path path_of(const std::string& name) const {
         const fs::path inside = path_inside(folder_, name);
-        return inside.empty() ? folder_ / name.substr(name.find_last_of("/\\") + 1) : inside;
+        return inside.empty() ? path_inside(folder_, name.substr(name.find_last_of("/\\") + 1)) : inside;
     }
 
     SceneDescription& scene_;

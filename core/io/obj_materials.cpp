@@ -21,7 +21,7 @@ namespace {
 /// Path of an `mtllib` argument, which must stay in the scene's folder.
 fs::path library_path(const fs::path& obj, const std::string& name, int line) {
     const fs::path relative(name);
-    if (!stays_inside(relative)) {
+    if (!stays_inside(obj.parent_path(), relative)) {
         fail_at(obj, line,
                 fmt::format("'mtllib': expected a file in the folder of the scene, got {}", in_quotes(name)));
     }

@@ -11,7 +11,7 @@
 #include <fmt/format.h>
 #include <stb_image.h>
 
-#include "core/base/error.h"
+#include "core/base/memory.h"
 #include "core/io/files.h"
 #include "core/io/hdr_check.h"
 #include "core/io/image.h"
@@ -53,6 +53,8 @@ void require_size(const fs::path& path, long long width, long long height) {
         fail_image(path, fmt::format("a texture of {}x{}: sides up to {} and {} texels are supported", width, height,
                                      kMostTextureSide, kMostTexels));
     }
+    constexpr std::uint64_t kTexelBytes = 40;  // as decoded, as four floats, and as packed
+    require_memory(path.string(), static_cast<std::uint64_t>(width * height) * kTexelBytes, ErrorKind::Input);
 }
 
 template <class Sample>
@@ -230,6 +232,8 @@ std::uint32_t add_texture_by(SceneDescription& scene, const fs::path& source, Te
                              const std::function<TextureDescription()>& read) {
     try {
         scene.textures.push_back(read());
+    } catch (const MemoryError&) {
+        throw;  // a picture does not depend on the memory of the machine
     } catch (const Error& error) {
         const bool shows = content == TextureContent::Color;
         const std::string told =
@@ -266,7 +270,7 @@ fs::path path_inside(const fs::path& folder, const std::string& name) {
     std::replace(slashes.begin(), slashes.end(), '\\', '/');
     const fs::path relative(slashes);
     const bool has_drive = slashes.size() > 1 && slashes[1] == ':';
-    return relative.empty() || has_drive || !stays_inside(relative) ? fs::path() : folder / relative;
+    return relative.empty() || has_drive || !stays_inside(folder, relative) ? fs::path() : folder / relative;
 }
 
 }  // namespace pl
