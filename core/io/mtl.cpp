@@ -36,8 +36,9 @@ public:
         const fs::path path = path_of(map.name);
         if (!path.empty()) return add_texture(scene_, path, content, !map.clamps);
         return add_texture_by(scene_, folder_ / map.name, content, !map.clamps, [&]() -> TextureDescription {
-            throw Error(ErrorKind::Input, fmt::format("{}: expected a file in the folder of the scene, got {}",
-                                                      folder_.string(), in_quotes(map.name)));
+            throw Error(ErrorKind::Input,
+                        fmt::format("{}: expected a file in the folder of the scene, got a link out of it",
+                                    (folder_ / map.name).string()));
         });
     }
 
