@@ -1,8 +1,13 @@
 #include "app/checkpoint_files.h"
 
+#include <filesystem>
+#include <system_error>
+#include <utility>
+
 #include <fmt/format.h>
 
-#include "core/base/error.h"
+#include "app/options.h"
+#include "core/base/memory.h"
 #include "core/session/exact_backend.h"
 
 namespace pl {
@@ -10,17 +15,20 @@ namespace {
 
 constexpr double kDefaultInterval = 600.0;
 
+/// Copies of the state that are made on the way to the file: taken out of the back end, and in the order of the file.
+constexpr std::uint64_t kCopies = 2;
+
 }  // namespace
 
-CheckpointFiles::CheckpointFiles(const Options& given)
-    : path_(given.checkpoint_file), interval_(given.checkpoint_seconds.value_or(kDefaultInterval)),
+CheckpointFiles::CheckpointFiles(const Options& given, Console& console)
+    : console_(console), path_(given.checkpoint_file), interval_(given.checkpoint_seconds.value_or(kDefaultInterval)),
       resumed_(given.resume_file) {
     if (path_.empty() && given.checkpoint_seconds)
         throw Error(ErrorKind::Usage, "--checkpoint-every: expected --checkpoint FILE with it");
     if (!resumed_.empty()) loaded_ = read_checkpoint(resumed_);
 }
 
-void CheckpointFiles::hand_over(Session& session, Console& console) {
+void CheckpointFiles::hand_over(Session& session) {
     if (!path_.empty()) exact(session.backend_access()).settle_when_stopped();
     if (!loaded_) return;
     Checkpoint checkpoint = std::move(*loaded_);
@@ -31,18 +39,36 @@ void CheckpointFiles::hand_over(Session& session, Console& console) {
         throw Error(error.kind(), fmt::format("{}: {}", resumed_, error.what()));
     }
     earlier_seconds_ = checkpoint.seconds;
-    console.log().detail(fmt::format("{}: goes on after {:.1f} s of rendering", resumed_, earlier_seconds_));
+    console_.log().detail(fmt::format("{}: goes on after {:.1f} s of rendering", resumed_, earlier_seconds_));
 }
 
 void CheckpointFiles::save_if_due(const Session& session, double seconds) {
     if (since_last_.seconds() >= interval_) save(session, seconds);
+    is_present_ = false;  // the rendering goes on
 }
 
 void CheckpointFiles::save(const Session& session, double seconds) {
     if (path_.empty()) return;
-    write_checkpoint(path_, {.seconds = seconds, .state = session.save_state()});
-    has_written_ = true;
     since_last_ = {};
+    is_present_ = false;
+    try {
+        require_memory(fmt::format("{}: cannot be written", path_), kCopies * session.state_bytes(),
+                       ErrorKind::Runtime);
+        write_checkpoint(path_, {.seconds = seconds, .state = session.save_state()});
+        has_written_ = is_present_ = true;
+        has_warned_ = false;
+    } catch (const Error& error) {
+        if (error.kind() != ErrorKind::Runtime) throw;
+        if (!std::exchange(has_warned_, true))
+            console_.log().warning(fmt::format("{}: rendering goes on without this checkpoint", error.what()));
+    }
+}
+
+std::string CheckpointFiles::way_on() const {
+    std::error_code ignored;
+    if (!has_written_ || !std::filesystem::exists(path_, ignored)) return "";
+    return fmt::format("the same command with --resume {} goes on from {}", shell_word(path_),
+                       is_present_ ? "here" : "the last checkpoint");
 }
 
 }  // namespace pl

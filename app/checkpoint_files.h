@@ -15,27 +15,33 @@ class CheckpointFiles {
 public:
     /// Reads the file of --resume, if it is given. Throws Error(Input) if it cannot be used, Error(Usage) for --checkpoint-every
     /// without --checkpoint.
-    explicit CheckpointFiles(const Options& given);
+    CheckpointFiles(const Options& given, Console& console);
 
     /// Gives the state of --resume to the session; to be called before its first piece of work. Throws Error(Input) if that
     /// belongs to another run, Error(Unavailable) if the back end cannot be continued.
-    void hand_over(Session& session, Console& console);
+    void hand_over(Session& session);
     /// Seconds of rendering before this run.
     double earlier_seconds() const { return earlier_seconds_; }
 
     /// Writes the checkpoint if its interval is over; between two pieces of work. `seconds`: of rendering, earlier runs included.
     void save_if_due(const Session& session, double seconds);
-    /// Writes the checkpoint, if one is asked for.
+    /// Writes the checkpoint, if one is asked for. A failure is a warning, told once in a row: the picture may still be saved, and the next
+    /// time there may be room.
     void save(const Session& session, double seconds);
-    bool has_written() const { return has_written_; }
+    /// "the same command with --resume FILE goes on from here", or from the last checkpoint, if save() did not write the present state;
+    /// empty if this run has written none that is still there.
+    std::string way_on() const;
 
 private:
+    Console& console_;
     std::string path_;  ///< empty: none is asked for
     double interval_ = 0.0;
     std::string resumed_;
     std::optional<Checkpoint> loaded_;
     double earlier_seconds_ = 0.0;
     bool has_written_ = false;
+    bool is_present_ = false;  ///< the file holds the present state
+    bool has_warned_ = false;
     Stopwatch since_last_;
 };
 

@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "core/base/error.h"
+#include "core/base/printable.h"
 
 namespace pl {
 
@@ -37,7 +38,8 @@ void Console::warn_about(const SceneDescription& scene) {
     }
 }
 
-void Console::write(const std::string& text) {
+void Console::write(const std::string& given) {
+    const std::string text = printable(given);
     log_.clear_status();
     if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0) failure_ = errno;
 }

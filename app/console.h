@@ -18,7 +18,7 @@ public:
     Log& log() { return log_; }
     bool json() const { return json_; }
 
-    /// Text for standard output, unless --json replaces it by events. -q leaves out `remark`s, never `result`s.
+    /// Text for standard output, as printable(), unless --json replaces it by events. -q leaves out `remark`s, never `result`s.
     void result(const std::string& text);
     void remark(const std::string& text);
     /// One line of JSON for standard output, with --json only.

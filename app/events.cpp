@@ -3,7 +3,8 @@
 namespace pl {
 
 std::string json_line(const Json& object) {
-    return object.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+    constexpr bool kOnlyAscii = true;  // a terminal obeys characters beyond ASCII, too
+    return object.dump(-1, ' ', kOnlyAscii, Json::error_handler_t::replace) + "\n";
 }
 
 std::string event_line(std::string_view kind, const Json& members) {

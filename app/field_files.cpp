@@ -35,7 +35,6 @@ void FieldFiles::hand_over(Session& session, const Options& options, Console& co
     LearnedField field = std::move(*loaded_);
     loaded_.reset();
     console.log().detail(fmt::format("{}: {}", options.load_field, summary_of(field)));
-    earlier_precompute_seconds_ = field.progress.precompute_seconds;
     fit_to_run(field, options.render.field);
     try {
         session.import_field(std::move(field));
@@ -46,8 +45,7 @@ void FieldFiles::hand_over(Session& session, const Options& options, Console& co
 
 void FieldFiles::save(const Session& session, const Options& options, Console& console) const {
     if (options.save_field.empty()) return;
-    LearnedField field = session.export_field(options.render.method);
-    field.progress.precompute_seconds += earlier_precompute_seconds_;
+    const LearnedField field = session.export_field(options.render.method);
     write_field(options.save_field, field);
     console.remark(fmt::format("{}: {}\n", options.save_field, summary_of(field)));
     console.event("field", {{"output", options.save_field},

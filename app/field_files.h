@@ -24,13 +24,12 @@ public:
     /// Gives the loaded field to the session. Its clocks start at zero and count this run alone. Throws Error(Input)
     /// if it was learned in another scene.
     void hand_over(Session& session, const Options& options, Console& console);
-    /// Writes the file of --save-field, if it is given, with the precomputation time of all runs.
+    /// Writes the file of --save-field, if it is given.
     void save(const Session& session, const Options& options, Console& console) const;
 
 private:
     std::optional<LearnedField> loaded_;
     double load_seconds_ = 0.0;
-    double earlier_precompute_seconds_ = 0.0;
 };
 
 }  // namespace pl

@@ -1,7 +1,5 @@
 #include "app/interrupt.h"
 
-#include <csignal>
-
 #include <unistd.h>
 
 namespace pl {
@@ -15,12 +13,24 @@ void on_signal(int) {
     if (interrupted.exchange(true)) _exit(kExitInterrupted);
 }
 
-void install(void (*handler)(int)) {
+void handle(int signal, void (*handler)(int)) {
     struct sigaction action {};
     action.sa_handler = handler;
     action.sa_flags = SA_RESTART;
     sigemptyset(&action.sa_mask);
-    for (const int signal : {SIGINT, SIGTERM}) sigaction(signal, &action, nullptr);
+    sigaction(signal, &action, nullptr);
+}
+
+/// Whether the program was started by `nohup`, or by something else for which a closed terminal is no reason to stop.
+bool outlives_terminal() {
+    struct sigaction action {};
+    return sigaction(SIGHUP, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
+}
+
+void install(void (*handler)(int)) {
+    const bool leave_hangup = outlives_terminal();
+    for (const int signal : kStopSignals)
+        if (signal != SIGHUP || !leave_hangup) handle(signal, handler);
 }
 
 }  // namespace

@@ -1,12 +1,18 @@
-// Ctrl+C: the first one asks for an orderly end, the second one ends the program.
+// Ctrl+C and its kind: the first one asks for an orderly end, the second one ends the program.
 #pragma once
+
+#include <array>
+#include <csignal>
 
 #include "core/session/backend.h"
 
 namespace pl {
 
-/// While one lives, SIGINT and SIGTERM raise the flag instead of ending the program; a second signal ends it at once
-/// with code 130. One at a time.
+/// Of Ctrl+C, of `kill`, and of a terminal that is closed.
+inline constexpr std::array kStopSignals{SIGINT, SIGTERM, SIGHUP};
+
+/// While one lives, kStopSignals raise the flag instead of ending the program; a second signal ends it at once
+/// with code 130. A program that was started to ignore SIGHUP, as `nohup` does, goes on to. One at a time.
 class InterruptGuard {
 public:
     InterruptGuard();

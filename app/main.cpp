@@ -10,6 +10,7 @@
 
 #include "app/commands.h"
 #include "app/help.h"
+#include "app/interrupt.h"
 #include "app/make_backend.h"
 #include "core/base/error.h"
 #include "mpi/job.h"
@@ -66,8 +67,7 @@ int run_guarded(const std::vector<std::string>& arguments, Console& console) {
     }
 }
 
-/// The job of mpirun; empty without one, or if this program cannot take part in it: then `code` is that of the error, which rank 0
-/// alone tells.
+/// The job of mpirun; empty without one, or if this program cannot take part in it: then `code` is that of the error.
 std::unique_ptr<Communicator> join(Console& console, int& code) {
     try {
         std::string version = version_text(true);
@@ -75,14 +75,14 @@ std::unique_ptr<Communicator> join(Console& console, int& code) {
         choose_device();
         return join_job(version);
     } catch (const Error& error) {
-        code = is_first_rank() ? tell(error.what(), error.kind(), console) : static_cast<int>(error.kind());
+        code = tells_why_not_joined() ? tell(error.what(), error.kind(), console) : static_cast<int>(error.kind());
         return nullptr;
     }
 }
 
 /// A rank other than 0 prints nothing, unless its own failure ends the job. Rank 0 alone takes requests to stop.
 int follow(Communicator& job, const std::vector<std::string>& arguments, Console& console) {
-    for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, SIG_IGN);
+    for (const int signal : kStopSignals) std::signal(signal, SIG_IGN);
     try {
         follow_rank_0(job, make_own_backend, [&] { serve_bench(job, arguments); });
         return 0;

@@ -82,7 +82,7 @@ DiagnosticsMap write_diagnostics(DiagnosticsInput source, const Snapshot& snapsh
 }
 
 void report(const Snapshot& snapshot, const Options& options, const Json& stats, bool interrupted,
-            const ErrorTarget* target, Console& console) {
+            const ErrorTarget* target, const CheckpointFiles& checkpoints, Console& console) {
     const double seconds = snapshot.clocks.total();
     const std::string range = image_kind(options.output) == ImageKind::Png ? legend(snapshot) : "";
     console.remark(fmt::format("{}: {}x{}, {}, {}, {} spp, {:.2f} s{}{}{}{}\n", options.output, snapshot.width,
@@ -99,9 +99,7 @@ void report(const Snapshot& snapshot, const Options& options, const Json& stats,
         console.log().warning(image_kind(options.output) == ImageKind::Pfm
                                   ? "interrupted: the picture is partial, and a .pfm file cannot be marked so"
                                   : "interrupted: the picture is partial and marked so");
-    if (interrupted && !options.checkpoint_file.empty())
-        console.log().notice(
-            fmt::format("the same command with --resume {} goes on from here", shell_word(options.checkpoint_file)));
+    if (const std::string way_on = checkpoints.way_on(); interrupted && !way_on.empty()) console.log().notice(way_on);
     if (snapshot.counters.invalid_samples > 0)
         console.log().warning(
             fmt::format("{} samples were NaN, infinite or negative and left out", snapshot.counters.invalid_samples));
@@ -123,10 +121,9 @@ RunOutcome run_saved(Session& session, const Options& options, const InterruptGu
         aids.checkpoints->save(session, outcome.seconds);
         return outcome;
     } catch (const Error& error) {
-        if (!aids.checkpoints->has_written()) throw;
-        throw Error(error.kind(),
-                    fmt::format("{}; the same command with --resume {} goes on from the last checkpoint",
-                                error.what(), shell_word(options.checkpoint_file)));
+        const std::string way_on = aids.checkpoints->way_on();
+        if (way_on.empty()) throw;
+        throw Error(error.kind(), fmt::format("{}; {}", error.what(), way_on));
     }
 }
 
@@ -137,14 +134,14 @@ int run_render(const CommandLine& line, Console& console) {
     require_outputs(line.options);
     const LoadedScene loaded = open_scene(line.options.scene, line.options.load, console);
     FieldFiles fields(line.options);
-    CheckpointFiles checkpoints(line.options);
+    CheckpointFiles checkpoints(line.options, console);
     const Options options = resolve_options(line, *loaded.scene, fields.loaded());
     require_paths(options);
     require_gain(options);
     Session session(make_backend(options.backend, options.threads), loaded.scene, options.render,
                     loaded.load_seconds + fields.load_seconds());
     fields.hand_over(session, options, console);
-    checkpoints.hand_over(session, console);
+    checkpoints.hand_over(session);
     announce(session, console);
     const std::string command = command_text(Command::Render, options, scene_defaults(options.scene, *loaded.scene));
     const FilmSlot slot = slot_of(options.render);
@@ -168,7 +165,7 @@ int run_render(const CommandLine& line, Console& console) {
     fields.save(session, options, console);
     if (!options.gain_file.empty() && !outcome.interrupted())
         is_complete &= write_gain(session, snapshot, options, interrupt, console);
-    report(snapshot, options, stats, outcome.interrupted(), aim, console);
+    report(snapshot, options, stats, outcome.interrupted(), aim, checkpoints, console);
     if (outcome.interrupted() || !is_complete) return kExitInterrupted;
     require_target(aim, outcome);
     return 0;

@@ -15,6 +15,8 @@ constexpr std::uint32_t kPixelChunk = 1u << 14;
 void FilmStore::reset(FilmSlot slot, int width, int height, int threads) {
     const std::size_t pixels = film_pixels(width, height);
     auto& film = films_.at(slot);
+    require_film_memory(width, height, film.pixels.size());
+    if (film.pixels.size() != pixels) film = {};  // frees the old memory before allocating the new
     film.width = width;
     film.height = height;
     film.pixels.resize(pixels);

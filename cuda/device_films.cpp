@@ -8,6 +8,7 @@ namespace pl::cuda {
 
 void DeviceFilms::reset(FilmSlot slot, int width, int height, const Stream& stream) {
     const std::size_t pixels = film_pixels(width, height);
+    require_film_memory(width, height, pixels);  // on the host are only pictures of it
     auto& film = films_.at(slot);
     if (film.pixels.size() != pixels) {
         film = {};  // frees the old memory before allocating the new

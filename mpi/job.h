@@ -15,7 +15,8 @@ std::unique_ptr<Communicator> join_job(const std::string& version);
 
 /// Number of ranks of the job on this machine; 1 without a job.
 int ranks_on_this_machine();
-/// Whether this is rank 0, which alone prints, or no rank of a job.
-bool is_first_rank();
+/// Whether this process tells why it cannot join. Rank 0 does, which hears of the others; a program without MPI always, because that of
+/// rank 0 may be another one, which cannot hear of it.
+bool tells_why_not_joined();
 
 }  // namespace pl

@@ -13,6 +13,4 @@ int job_number(const char* name, int otherwise) {
 
 int ranks_on_this_machine() { return std::max(1, job_number("OMPI_COMM_WORLD_LOCAL_SIZE", 1)); }
 
-bool is_first_rank() { return job_number("OMPI_COMM_WORLD_RANK", 0) == 0; }
-
 }  // namespace pl

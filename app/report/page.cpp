@@ -135,11 +135,11 @@ std::string warnings(const BenchResults& results) {
     return text;
 }
 
-/// JSON for a script element, which a closing tag in it would end.
+/// JSON for a script element, which tags and comments in it would end, or keep from ending.
 std::string script_json(const Json& json) {
     std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
-    for (std::size_t at = text.find("</"); at != std::string::npos; at = text.find("</", at + 3))
-        text.replace(at, 2, "<\\/");
+    for (std::size_t at = text.find('<'); at != std::string::npos; at = text.find('<', at))
+        text.replace(at, 1, "\\u003c");
     return text;
 }
 

@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "core/base/error.h"
+#include "core/base/printable.h"
 
 namespace pl {
 namespace {
@@ -67,7 +68,7 @@ void Log::show_status(std::string_view line) {
     const std::lock_guard lock(mutex_);
     if (!terminal_) return;
     put("\r\033[K", stderr);
-    put(line, stderr);
+    put(printable(line), stderr);
     std::fflush(stderr);
     status_shown_ = true;
 }
@@ -90,7 +91,8 @@ int Log::terminal_width() const {
     return size.ws_col;
 }
 
-void Log::write(LogLevel level, std::string_view message) {
+void Log::write(LogLevel level, std::string_view given) {
+    const std::string message = printable(given);
     const std::lock_guard lock(mutex_);
     write_to_file(level, message);
     if (level > level_) return;

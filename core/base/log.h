@@ -13,7 +13,7 @@ namespace pl {
 /// Severities, highest first; a log shows messages up to its level.
 enum class LogLevel { Error, Warning, Notice, Detail };
 
-/// Thread-safe. Every message of any level also goes to the log file, if there is one.
+/// Thread-safe. Every message of any level also goes to the log file, if there is one. Messages are shown as printable().
 class Log {
 public:
     Log();

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <set>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -75,6 +76,20 @@ Json comparisons_json(const BenchSummary& summary) {
 
 std::string csv_number(double value) { return std::isfinite(value) ? fmt::format("{:.9g}", value) : ""; }
 
+/// A name as a field of CSV [RFC 4180] that spreadsheets do not take for a formula.
+std::string csv_name(const std::string& name) {
+    const bool is_formula = !name.empty() && std::string_view("=+-@\t\r").find(name[0]) != std::string_view::npos;
+    const std::string text = fmt::format("{}{}", is_formula ? "'" : "", name);
+    if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+    std::string quoted = "\"";
+    for (const char c : text) quoted.append(c == '"' ? 2 : 1, c);
+    return quoted + "\"";
+}
+
+std::string csv_cell(const BenchCell& cell) {
+    return fmt::format("{},{},{}", csv_name(cell.scene), csv_name(cell.method), csv_name(cell.backend));
+}
+
 std::string series_csv(const std::vector<BenchRun>& runs) {
     std::string text =
         "scene,method,backend,seed,warm_up,spp,load_s,build_s,upload_s,place_s,precompute_s,learn_s,render_s,"
@@ -84,8 +99,7 @@ std::string series_csv(const std::vector<BenchRun>& runs) {
         for (const RunPoint& point : run.series.points) {
             const Clocks& t = point.clocks;
             const Metrics& m = point.metrics;
-            text += fmt::format("{},{},{},{},{},{}", run.cell.scene, run.cell.method, run.cell.backend, run.seed,
-                                run.warm_up ? 1 : 0, point.spp);
+            text += fmt::format("{},{},{},{}", csv_cell(run.cell), run.seed, run.warm_up ? 1 : 0, point.spp);
             for (const double value :
                  {t.load, t.build, t.upload, t.place, t.precompute, t.learn, t.render, charged_seconds(t), m.mse,
                   m.relmse, m.relmse_trimmed, m.mape, m.smape, m.bias, m.relative_bias, m.psnr_db,
@@ -103,7 +117,7 @@ std::string summary_csv(const BenchSummary& summary) {
                        "setup_seconds,slope,slope_low,slope_high,base,samples_factor,cost_factor,net_factor,net_low,"
                        "net_high,ahead_from_seconds\n";
     for (const CellSummary& cell : summary.cells) {
-        text += fmt::format("{},{},{},{}", cell.cell.scene, cell.cell.method, cell.cell.backend, cell.ends.size());
+        text += fmt::format("{},{}", csv_cell(cell.cell), cell.ends.size());
         for (const double value : {cell.final_error.value, cell.final_error.low, cell.final_error.high,
                                    cell.seconds.value, cell.seconds_per_sample.value, cell.setup_seconds.value,
                                    cell.slope.value, cell.slope.low, cell.slope.high})
@@ -112,7 +126,7 @@ std::string summary_csv(const BenchSummary& summary) {
         for (const Comparison& comparison : summary.comparisons) {
             if (comparison.cell != cell.cell) continue;
             const Gain& gain = comparison.gain;
-            gain_columns = fmt::format(",{}", comparison.base_method);
+            gain_columns = fmt::format(",{}", csv_name(comparison.base_method));
             for (const double value : {gain.samples.value, gain.cost.value, gain.net.value, gain.net.low,
                                        gain.net.high, gain.ahead_from_seconds.value_or(NAN)})
                 gain_columns.append(1, ',').append(csv_number(value));

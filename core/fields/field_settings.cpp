@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
+#include "core/base/memory.h"
 #include "core/fields/lobe_model.h"
 #include "core/fields/neural_vertex_model.h"
 #include "core/fields/sd_tree_model.h"
@@ -16,16 +19,26 @@ constexpr double kBytesPerMegabyte = 1.0e6;
 
 int side_of(int bins) { return static_cast<int>(std::lround(std::sqrt(static_cast<double>(bins)))); }
 
-/// Number of volumes within the budget. The methods of a session share its placement, so that it holds tables too.
-double affordable(const FieldSettings& settings, std::size_t light_clusters) {
+/// Bytes of a volume. The methods of a session share its placement, so that it holds tables, too.
+std::size_t bytes_of_each(const FieldSettings& settings, std::size_t light_clusters) {
     std::size_t bytes = bytes_per_volume(settings.bins, light_clusters);
     if (settings.representation == Representation::Lobes)
         bytes += std::max(lobe_bytes(light_clusters), table_bytes(settings.bins, light_clusters)) -
                  table_bytes(settings.bins, light_clusters);
-    double left = settings.budget_megabytes * kBytesPerMegabyte;
-    if (settings.representation == Representation::Neural) left -= static_cast<double>(network_bytes(settings.bins));
-    if (settings.representation == Representation::NeuralVertex) left -= static_cast<double>(vertex_network_bytes());
-    return std::max(left, 0.0) / static_cast<double>(bytes);
+    return bytes;
+}
+
+/// Bytes of the network of a field; 0 without one.
+std::size_t bytes_of_network(const FieldSettings& settings) {
+    if (settings.representation == Representation::Neural) return network_bytes(settings.bins);
+    return settings.representation == Representation::NeuralVertex ? vertex_network_bytes() : 0;
+}
+
+/// Number of volumes within the budget.
+double affordable(const FieldSettings& settings, std::size_t light_clusters) {
+    const double left =
+        settings.budget_megabytes * kBytesPerMegabyte - static_cast<double>(bytes_of_network(settings));
+    return std::max(left, 0.0) / static_cast<double>(bytes_of_each(settings, light_clusters));
 }
 
 /// Nodes of an SD-tree within the budget, which its volumes share.
@@ -68,6 +81,16 @@ float brightest_by_delta_lights(const HostScene& scene, float diagonal) {
 std::size_t bytes_per_volume(int bins, std::size_t light_clusters) {
     return sizeof(SurfacePoint) + sizeof(Vec3f) + sizeof(KdNode) + kGridBytesPerVolume +
            table_bytes(bins, light_clusters);
+}
+
+void require_field_memory(const FieldSettings& settings, std::size_t light_clusters) {
+    const int volumes = volume_count(settings, light_clusters);
+    std::uint64_t bytes =
+        bytes_of_network(settings) + static_cast<std::uint64_t>(volumes) * bytes_of_each(settings, light_clusters);
+    if (settings.representation == Representation::SdTree)
+        bytes += affordable_nodes(settings, light_clusters) * sd_tree_bytes_per_node();
+    require_memory(fmt::format("{} radiance volumes of {} directions", volumes, settings.bins), bytes,
+                   ErrorKind::Usage);
 }
 
 int volume_count(const FieldSettings& settings, std::size_t light_clusters) {

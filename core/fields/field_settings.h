@@ -38,6 +38,9 @@ inline constexpr int kDefaultVolumes = 1000;
 /// of volumes does not depend on the lookup. `light_clusters`, here and below: of the scene's light tree.
 std::size_t bytes_per_volume(int bins, std::size_t light_clusters = 0);
 
+/// Throws MemoryError if the volumes of the settings and what one method learns do not fit the memory that is left.
+void require_field_memory(const FieldSettings& settings, std::size_t light_clusters);
+
 /// Number of volumes of the settings, before surfaces too small for their share are given one volume each.
 int volume_count(const FieldSettings& settings, std::size_t light_clusters = 0);
 

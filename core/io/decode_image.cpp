@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <stb_image.h>
 
+#include "core/base/memory.h"
 #include "core/io/image.h"
 #include "core/io/image_checks.h"
 #include "core/io/image_ends.h"
@@ -26,6 +27,8 @@ void require_texture_size(const fs::path& path, long long width, long long heigh
         fail_image(path, fmt::format("a texture of {}x{}: sides up to {} and {} texels are supported", width, height,
                                      kMostTextureSide, kMostTexels));
     }
+    constexpr std::uint64_t kTexelBytes = 40;  // as decoded, as four floats, and as packed
+    require_memory(path.string(), static_cast<std::uint64_t>(width * height) * kTexelBytes, ErrorKind::Input);
 }
 
 constexpr unsigned kTgaFromRight = 0x10;  // in the descriptor: columns begin at the right

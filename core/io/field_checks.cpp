@@ -167,7 +167,6 @@ private:
                 p.precomputed_slices);
         require(p.next_probe == 0 || p.next_probe < probes, "next probe", fmt::format("0, or below {}", probes),
                 p.next_probe);
-        require(is_amount(p.precompute_seconds), "seconds of precomputation", "a time", p.precompute_seconds);
     }
 
     /// SurfacePoint::primitive is only compared and SurfacePoint::material is unused, so neither needs a range.

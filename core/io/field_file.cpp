@@ -10,7 +10,7 @@
 namespace pl {
 namespace {
 
-constexpr SealedKind kFieldKind{.magic = "PLFIELD\n", .version = 8, .title = "learned field", .word = "field"};
+constexpr SealedKind kFieldKind{.magic = "PLFIELD\n", .version = 9, .title = "learned field", .word = "field"};
 
 template <class Stream, class Field>
 void transfer_header(Stream& stream, Field& field) {
@@ -21,7 +21,7 @@ void transfer_header(Stream& stream, Field& field) {
     auto& progress = field.progress;
     const auto all = [&](auto&... values) { (transfer(stream, values), ...); };
     all(progress.passes, progress.records, progress.clamped_records, progress.lookup_misses,
-        progress.precomputed_slices, progress.next_probe, progress.precompute_seconds);
+        progress.precomputed_slices, progress.next_probe);
 }
 
 LearnedField read_content(std::string_view content, const std::filesystem::path& path) {

@@ -13,7 +13,7 @@
 #include <fmt/format.h>
 #include <sys/stat.h>
 
-#include "core/base/error.h"
+#include "core/base/memory.h"
 #include "core/io/temporary_file.h"
 
 namespace pl {
@@ -98,13 +98,8 @@ std::string decode_utf16(const fs::path& path, std::string_view bytes) {
     return text;
 }
 
-}  // namespace
-
-void fail_write(const fs::path& path, const std::string& why) {
-    throw Error(ErrorKind::Runtime, fmt::format("{}: cannot be written: {}", path.string(), why));
-}
-
-std::string read_file(const fs::path& path) {
+/// Throws MemoryError if so many times the size of the file do not fit the memory.
+std::string read_whole(const fs::path& path, std::uint64_t copies) {
     std::error_code error;
     const fs::file_status status = fs::status(path, error);
     if (!fs::exists(status)) {
@@ -119,8 +114,10 @@ std::string read_file(const fs::path& path) {
     }
     // fstat of the open file: another one may have replaced it under this name.
     struct ::stat opened {};
-    std::string bytes(::fstat(::fileno(file.get()), &opened) == 0 ? static_cast<std::size_t>(opened.st_size) : 0,
-                      '\0');
+    const std::size_t size =
+        ::fstat(::fileno(file.get()), &opened) == 0 ? static_cast<std::size_t>(opened.st_size) : 0;
+    require_memory(path.string(), copies * size, ErrorKind::Input);
+    std::string bytes(size, '\0');
     bytes.resize(std::fread(bytes.data(), 1, bytes.size(), file.get()));
     if (std::ferror(file.get()) != 0) {
         fail_read(path, reason(errno));
@@ -128,8 +125,17 @@ std::string read_file(const fs::path& path) {
     return bytes;
 }
 
+}  // namespace
+
+void fail_write(const fs::path& path, const std::string& why) {
+    throw Error(ErrorKind::Runtime, fmt::format("{}: cannot be written: {}", path.string(), why));
+}
+
+std::string read_file(const fs::path& path) { return read_whole(path, 1); }
+
 std::string read_text_file(const fs::path& path) {
-    std::string text = read_file(path);
+    constexpr std::uint64_t kCopies = 3;  // what is read from a text takes twice its size at least
+    std::string text = read_whole(path, kCopies);
     if (text.starts_with("\xEF\xBB\xBF")) {
         text.erase(0, 3);
     } else if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) {
@@ -168,8 +174,18 @@ std::string suffix_of(const std::filesystem::path& path) {
     return suffix;
 }
 
-bool stays_inside(const std::filesystem::path& path) {
-    return !path.is_absolute() && std::find(path.begin(), path.end(), "..") == path.end();
+bool stays_inside(const fs::path& folder, const fs::path& path) {
+    if (path.is_absolute() || std::find(path.begin(), path.end(), "..") != path.end()) {
+        return false;
+    }
+    std::error_code failed;
+    const fs::path real_folder = fs::weakly_canonical(folder.empty() ? fs::path(".") : folder, failed);
+    if (failed) {
+        return false;
+    }
+    const fs::path real = fs::weakly_canonical(real_folder / path, failed);
+    return !failed &&
+           std::mismatch(real_folder.begin(), real_folder.end(), real.begin(), real.end()).first == real_folder.end();
 }
 
 }  // namespace pl

@@ -7,7 +7,8 @@
 
 namespace pl {
 
-/// The bytes of a regular file. Throws Error(Input) if it is missing, a directory, a device, or not readable.
+/// The bytes of a regular file. Throws Error(Input) if it is missing, a directory, a device, or not readable, MemoryError if it is too
+/// large for the memory.
 std::string read_file(const std::filesystem::path& path);
 
 /// As read_file(), in UTF-8 without a byte order mark; a file that starts with that of UTF-16 is converted. Throws Error(Input) also
@@ -17,8 +18,8 @@ std::string read_text_file(const std::filesystem::path& path);
 /// File name extension with its dot, in lower case.
 std::string suffix_of(const std::filesystem::path& path);
 
-/// Whether the path is relative and stays in its base folder.
-bool stays_inside(const std::filesystem::path& path);
+/// Whether a path is relative to the folder and stays inside, also where its links lead.
+bool stays_inside(const std::filesystem::path& folder, const std::filesystem::path& path);
 
 /// Writes a temporary file beside `path` and renames it, so that readers see the old or the new content, never a
 /// part. Links are followed; devices and pipes are written directly. Throws Error(Runtime) with path and reason and

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <stb_image.h>
 
-#include "core/base/error.h"
+#include "core/base/memory.h"
 #include "core/io/files.h"
 #include "core/io/image_checks.h"
 
@@ -75,6 +75,8 @@ void require_plausible(const std::filesystem::path& path, long long width, long 
     if (width <= 0 || height <= 0 || width > kMostPixels / height) {
         fail_image(path, fmt::format("a size of {}x{} is not supported", width, height));
     }
+    constexpr std::uint64_t kPixelBytes = 24;  // as decoded, and as three floats
+    require_memory(path.string(), static_cast<std::uint64_t>(width * height) * kPixelBytes, ErrorKind::Input);
 }
 
 std::string stb_failure() {

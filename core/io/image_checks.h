@@ -11,7 +11,7 @@ namespace pl {
 void require_complete(const std::filesystem::path& path, int width, int height, std::size_t size,
                       std::size_t per_pixel);
 
-/// Throws Error(Input) unless width and height are positive, with at most 2^28 pixels.
+/// Throws Error(Input) unless width and height are positive, with at most 2^28 pixels; MemoryError if these do not fit the memory.
 void require_plausible(const std::filesystem::path& path, long long width, long long height);
 
 /// The reason of the last failure of stb_image, "unknown" where it gives none.

@@ -43,7 +43,7 @@ public:
 
     std::uint32_t add(const MtlMap& map, TextureContent content) {
         if (!map) return kNoTexture;
-        const NamedFile file = find_named_file(root_, from_, map.name);
+        const NamedFile file = find_named_file(root_, from_, map.name, NamedKind::Image);
         if (!file.is_there && file.is_elsewhere) {
             return add_texture_by(scene_, file.path, content, !map.clamps, [&]() -> TextureDescription {
                 throw Error(ErrorKind::Input,

@@ -1,6 +1,7 @@
 #include "core/io/obj_names.h"
 
 #include <algorithm>
+#include <iterator>
 #include <system_error>
 
 #include "core/io/files.h"
@@ -16,9 +17,18 @@ bool is_quote(char c) { return c == '"' || c == '\''; }
 
 bool is_library(std::string_view word) { return suffix_of(fs::path(word)) == ".mtl"; }
 
-bool is_regular(const fs::path& path) {
+/// Whether a path within a folder leads to a file there; links may lead out of it.
+bool has_file(const fs::path& folder, const fs::path& path) {
     std::error_code ignored;
-    return fs::is_regular_file(path, ignored);
+    return stays_inside(folder, path) && fs::is_regular_file(folder / path, ignored);
+}
+
+/// A path that leads up once, without that step; empty for others.
+fs::path below_parent(const fs::path& path) {
+    fs::path rest;
+    if (path.empty() || *path.begin() != "..") return rest;
+    for (auto part = std::next(path.begin()); part != path.end(); ++part) rest /= *part;
+    return rest;
 }
 
 /// The names of the folders and of the file, without those that lead up.
@@ -64,20 +74,22 @@ std::vector<std::string> library_names(std::string_view arguments) {
     return names;
 }
 
-NamedFile find_named_file(const fs::path& root, const fs::path& from, std::string_view name) {
+NamedFile find_named_file(const fs::path& root, const fs::path& from, std::string_view name, NamedKind kind) {
     std::string slashes(name);
     std::replace(slashes.begin(), slashes.end(), '\\', '/');
     const bool has_drive = slashes.size() > 1 && slashes[1] == ':';
     const fs::path named(has_drive ? slashes.substr(2) : slashes);
     const fs::path direct = (from / named).lexically_normal();
-    const bool is_inside = !has_drive && stays_inside(direct);
-    if (is_inside && is_regular(root / direct)) return {root / direct};
+    const bool is_inside = !has_drive && stays_inside(root, direct);
+    if (is_inside && has_file(root, direct)) return {root / direct};
+    const fs::path beside = has_drive || kind != NamedKind::Image ? fs::path() : below_parent(direct);
+    if (!beside.empty() && has_file(root / "..", beside)) return {root / ".." / beside};
     const std::vector<fs::path> parts = parts_of(named);
     for (auto first = parts.begin(); first != parts.end(); ++first) {
         fs::path end;
         for (auto part = first; part != parts.end(); ++part) end /= *part;
         for (const fs::path& folder : {from, fs::path()})
-            if (is_regular(root / folder / end)) return {root / folder / end, true, true};
+            if (has_file(root, folder / end)) return {root / folder / end, true, true};
     }
     return {root / (is_inside ? direct : named.filename()), false, !is_inside};
 }

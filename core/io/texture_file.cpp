@@ -104,6 +104,8 @@ std::uint32_t add_texture_by(SceneDescription& scene, const fs::path& source, Te
                              const std::function<TextureDescription()>& read) {
     try {
         scene.textures.push_back(read());
+    } catch (const MemoryError&) {
+        throw;  // a picture does not depend on the memory of the machine
     } catch (const Error& error) {
         const bool shows = content == TextureContent::Color;
         const std::string told =
@@ -140,7 +142,7 @@ fs::path path_inside(const fs::path& folder, const std::string& name) {
     std::replace(slashes.begin(), slashes.end(), '\\', '/');
     const fs::path relative(slashes);
     const bool has_drive = slashes.size() > 1 && slashes[1] == ':';
-    return relative.empty() || has_drive || !stays_inside(relative) ? fs::path() : folder / relative;
+    return relative.empty() || has_drive || !stays_inside(folder, relative) ? fs::path() : folder / relative;
 }
 
 }  // namespace pl

@@ -23,7 +23,7 @@ TextureDescription read_texture(const std::filesystem::path& path, TextureConten
 TextureDescription decode_texture(const std::string& bytes, const std::filesystem::path& source,
                                   TextureContent content, bool repeats, std::vector<std::string>& warnings);
 
-/// Index of the texture that `read` gives, added to the scene. If `read` throws an Error(Input), adds a warning and
+/// Index of the texture that `read` gives, added to the scene. If `read` throws an Error(Input) other than a MemoryError, adds a warning and
 /// returns a checkerboard of magenta and black for colors, kNoTexture for other contents.
 std::uint32_t add_texture_by(SceneDescription& scene, const std::filesystem::path& source, TextureContent content,
                              bool repeats, const std::function<TextureDescription()>& read);
@@ -38,7 +38,7 @@ EnvironmentMapDescription read_environment_map(const std::filesystem::path& path
                                                std::vector<std::string>& warnings);
 
 /// Path of a file name in a scene or material file, with slashes of either kind; empty if it is absolute or outside
-/// of the folder.
+/// of the folder, also by a link.
 std::filesystem::path path_inside(const std::filesystem::path& folder, const std::string& name);
 
 }  // namespace pl

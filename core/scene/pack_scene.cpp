@@ -6,6 +6,7 @@
 #include <map>
 #include <utility>
 
+#include "core/base/memory.h"
 #include "core/base/parallel_chunks.h"
 #include "core/kernel/shading/bsdf.h"
 #include "core/scene/directional_albedo.h"
@@ -183,6 +184,19 @@ Vec3d safe_unit(Vec3d v) {
     return scale > 0.0 ? glm::normalize(v / scale) : Vec3d{0.0};
 }
 
+/// Bytes of the packed scene, and of what its construction takes at the same time, by measured peaks.
+std::uint64_t bytes_to_pack(const SceneDescription& scene) {
+    constexpr std::uint64_t kPerTriangle = 220;  // with its share of the hierarchies, that of the back end included
+    constexpr std::uint64_t kPerInstance = 400;
+    constexpr std::uint64_t kPerTexel = 2 * sizeof(Texel);  // twice while the array grows
+    constexpr std::uint64_t kPerMapTexel = 32;
+    std::uint64_t texels = 0;
+    for (const TextureDescription& texture : scene.textures) texels += texture.texels.size();
+    return kPerTriangle * scene.triangles.size() + kPerInstance * scene.instances.size() + kPerTexel * texels +
+           kPerMapTexel * scene.environment_map.texels.size() +
+           sizeof(Vec3f) * (scene.positions.size() + scene.normals.size() + scene.uvs.size());
+}
+
 }  // namespace
 
 Bounds bounds_of(const SceneDescription& scene) {
@@ -209,6 +223,8 @@ Bounds bounds_of(const HostScene& scene) {
 }
 
 HostScene pack_scene(const SceneDescription& scene) {
+    require_memory(scene.source.empty() ? "the scene" : scene.source.string(), bytes_to_pack(scene),
+                   ErrorKind::Input);
     HostScene packed;
     pack_geometry(scene, packed);
     pack_instances(scene, packed);

@@ -16,7 +16,6 @@ void require_learned_in(const SceneDescription& scene, const LearnedField& field
 }
 
 void fit_to_run(LearnedField& field, const FieldSettings& settings) {
-    field.progress.precompute_seconds = 0.0;
     field.settings.lookup = settings.lookup;
     field.shape.lookup = settings.lookup;
 }

@@ -76,6 +76,8 @@ public:
     /// Continues from a learned field: takes its settings and volumes, and clears all films and the tables of other
     /// methods. Throws Error(Input) if it was learned in another scene or if the lengths of its arrays disagree.
     void import_field(LearnedField field);
+    /// Bytes of save_state(), nearly.
+    std::uint64_t state_bytes() const;
     /// All state that decides later bits, between two pieces of work or within a pass. Throws Error(Unavailable) if the back end's
     /// films cannot be taken out, see exact().
     SessionState save_state() const;

@@ -22,8 +22,9 @@ bool fits_together(const LearnedField& field, const HostScene& scene) {
 }  // namespace
 
 void Session::ensure_tables(MethodId method) {
-    ensure_volumes();
     const MethodId owner = field_owner(method);
+    if (!backend_->has_field(owner)) require_field_memory(settings_.field, scene_.packed()->light_clusters.size());
+    ensure_volumes();
     if (!backend_->has_field(owner))
         backend_->upload_field(
             owner, make_field(placement_.shape(), placement_.count(), representation_of(settings_.field, owner)));

@@ -38,6 +38,7 @@ Progress Session::advance_to_path(FilmSlot slot, std::uint32_t pixel, const Stop
 
 void Session::prepare_film(FilmSlot slot) {
     begin_film(slot);
+    ensure_film(slot);  // before the work for it: it may not fit the memory
     const ViewInfo& view = info_of(slot.view);
     if (view.needs_volumes) ensure_volumes();
     if (info_of(slot.method).uses_field || view.needs_tables) ensure_tables(slot.method);

@@ -65,6 +65,16 @@ SessionState Session::save_state() const {
     return state;
 }
 
+std::uint64_t Session::state_bytes() const {
+    std::uint64_t bytes = placement_.is_placed() ? volume_bytes(*placement_.volumes()) : 0;
+    for (const MethodInfo& method : all_methods()) {
+        bytes += backend_->has_field(method.id) ? backend_->field_bytes(method.id) : 0;
+        for (const ViewInfo& view : all_views())
+            bytes += films_[{method.id, view.id}].is_allocated ? pixel_count() * sizeof(FilmPixel) : 0;
+    }
+    return bytes;
+}
+
 void Session::save_film(FilmSlot slot, SessionState& state) const {
     const FilmProgress& progress = films_[slot];
     if (progress.origin.number == 0 && !progress.is_allocated) return;

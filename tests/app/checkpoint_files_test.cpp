@@ -76,6 +76,45 @@ TEST_CASE("checkpoints are written along the way, and a killed program leaves th
     run_well(render(folder / "b.pfm", 1, {"--method", "reinforcement", "--resume", folder / "c"}));
 }
 
+TEST_CASE("a checkpoint that cannot be written does not end the rendering, and the next one is tried") {
+    const TempDir folder;
+    fs::create_directory(folder / "d");
+    const auto start = [&] {
+        return program(
+            render(folder / "a.pfm", 1000000000, {"--checkpoint", folder / "d/c", "--checkpoint-every", "0"}));
+    };
+    const auto loses_its_folder = [&](RunningProgram& running) {
+        REQUIRE(running.wait_until([&] { return fs::exists(folder / "d/c"); }));
+        // The program may be writing there.
+        REQUIRE(running.wait_until([&] {
+            std::error_code failed;
+            fs::remove_all(folder / "d", failed);
+            return !failed && running.err().find("rendering goes on without this checkpoint") != std::string::npos;
+        }));
+    };
+    RunningProgram lost(start());
+    loses_its_folder(lost);
+    lost.send(SIGINT);
+    const ProgramResult without = lost.wait();
+    CAPTURE(without.err);
+    CHECK(without.code == 130);
+    CHECK(fs::exists(folder / "a.pfm"));
+    CHECK_THAT(without.err, contains("warning: ") && contains("d/c: cannot be written"));
+    CHECK(without.err.find("--resume") == std::string::npos);
+
+    fs::create_directory(folder / "d");
+    RunningProgram found(start());
+    loses_its_folder(found);
+    fs::create_directory(folder / "d");
+    REQUIRE(found.wait_until([&] { return fs::exists(folder / "d/c"); }));
+    found.send(SIGHUP);
+    const ProgramResult with = found.wait();
+    CAPTURE(with.err);
+    CHECK(with.code == 130);
+    CHECK_THAT(with.err, contains("goes on from here"));
+    run_well(render(folder / "b.pfm", 1, {"--resume", folder / "d/c"}));
+}
+
 TEST_CASE("seconds of work go on where a run is resumed") {
     const TempDir folder;
     run_well(render(folder / "a.pfm", 4, {"--checkpoint", folder / "c", "--stats", folder / "a.json"}));

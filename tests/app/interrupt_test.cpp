@@ -40,11 +40,21 @@ TEST_CASE("the first interruption raises the flag, the second one ends the progr
               { const InterruptGuard guard; }
               raise(SIGINT);
           }) == 128 + SIGINT);
+    for (const int signal : {SIGTERM, SIGHUP})
+        CHECK(in_child([&] {
+                  const InterruptGuard guard;
+                  raise(signal);
+                  _exit(guard.raised() ? 7 : 8);
+              }) == 7);
+}
+
+TEST_CASE("a program started by nohup outlives its terminal") {
     CHECK(in_child([] {
+              std::signal(SIGHUP, SIG_IGN);
               const InterruptGuard guard;
-              raise(SIGTERM);
+              raise(SIGHUP);
               _exit(guard.raised() ? 7 : 8);
-          }) == 7);
+          }) == 8);
 }
 
 }  // namespace pl

@@ -1,4 +1,5 @@
 // Every exit code of the program, with its message.
+#include "core/io/image.h"
 #include "tests/support/catch.hpp"
 #include "tests/support/program/refusal.h"
 
@@ -26,6 +27,75 @@ TEST_CASE("0: questions are answered on standard output") {
         CHECK(result.err.empty());
     }
 }
+
+TEST_CASE("names in files do not speak to the terminal") {
+    const TempDir folder;
+    write_all(folder / "e.gltf",
+              R"({"asset":{"version":"2.0"},"extensionsUsed":["X\u001b[31m\u009b1m"],
+                  "buffers":[{"byteLength":36,"uri":"data:;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}],
+                  "bufferViews":[{"buffer":0,"byteLength":36}],
+                  "accessors":[{"bufferView":0,"componentType":5126,"type":"VEC3","count":3}],
+                  "materials":[{"name":"\u001b]0;OWNED\u0007red"}],
+                  "cameras":[{"name":"\u001b[2J","type":"perspective","perspective":{"yfov":0.6}}],
+                  "meshes":[{"primitives":[{"attributes":{"POSITION":0},"material":0}]}],
+                  "nodes":[{"mesh":0},{"camera":0,"name":"\u009b2J"}],"scenes":[{"nodes":[0,1]}],"scene":0})");
+    for (const Arguments& more : std::vector<Arguments>{{}, {"--json"}}) {
+        Arguments arguments{"info", folder / "e.gltf"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const ProgramResult result = run_program(arguments);
+        CAPTURE(result.out, result.err);
+        REQUIRE(result.code == 0);
+        CHECK_THAT(result.out, contains("OWNED"));
+        CHECK_THAT(result.err, contains("31m"));
+        for (const std::string& text : {result.out, result.err})
+            for (const char* control : {"\x1b", "\x07", "\xC2\x9B"}) CHECK(text.find(control) == std::string::npos);
+    }
+}
+
+// Sanitizers reserve more address space than any limit leaves.
+#ifndef __SANITIZE_ADDRESS__
+
+TEST_CASE("2: pictures and volumes that do not fit the memory are refused with both numbers of bytes") {
+    const TempDir folder;
+    const std::string limited = "ulimit -v 2000000; exec pathlight render cornell -t 1 -o " + (folder / "x.pfm");
+    const ProgramResult picture = run_shell(limited + " --size 16384x16384");
+    CAPTURE(picture.err);
+    CHECK(picture.code == 2);
+    CHECK_THAT(picture.err, contains("picture size 16384x16384: ") && contains(" bytes (34.4 GB)"));
+    const ProgramResult volumes =
+        run_shell(limited + " --size 16x16 --method reinforcement --volumes 1000000 --bins 1024");
+    CAPTURE(volumes.err);
+    CHECK(volumes.code == 2);
+    CHECK_THAT(volumes.err, contains("1000000 radiance volumes of 1024 directions: ") && contains(" bytes ("));
+    CHECK(folder.names().empty());
+    CHECK(run_shell(limited + " --size 16x16 --spp 1").code == 0);
+}
+
+TEST_CASE("3: scenes whose files together do not fit the memory are refused, not shown without some of them") {
+    const TempDir folder;
+    const ByteImage image{.width = 4096, .height = 4096, .rgb = std::vector<std::uint8_t>(3 << 24, 100)};
+    std::string faces = "mtllib t.mtl\n" + std::string(kTriangle), materials;
+    for (const std::string number : {"1", "2", "3", "4"}) {
+        write_png8(folder / ("t" + number + ".png"), image);
+        faces += "vt 0 0\nusemtl m" + number + "\nf 1/1 2/1 3/1\n";
+        materials += "newmtl m" + number + "\nmap_Kd t" + number + ".png\n";
+        write_all(folder / ("t" + number + ".obj"), faces);
+    }
+    write_all(folder / "t.mtl", materials);
+    const auto info = [&](const std::string& scene) {
+        return run_shell("ulimit -v 1200000; exec pathlight info " + (folder / scene));
+    };
+    const ProgramResult all = info("t4.obj");
+    CAPTURE(all.err);
+    CHECK(all.code == 3);
+    CHECK_THAT(all.err,
+               contains(".png: expected to need at most the memory that is left here, ") && contains(" bytes ("));
+    // One alone fits.
+    write_all(folder / "t.mtl", "newmtl m1\nmap_Kd t1.png\n");
+    CHECK(info("t1.obj").code == 0);
+}
+
+#endif
 
 TEST_CASE("1: files that cannot be written are found out before rendering") {
     const TempDir folder;

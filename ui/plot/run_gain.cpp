@@ -68,14 +68,31 @@ std::vector<RunEnd> ends_of(const Repetitions& runs, ErrorMetric metric, const s
     return ends;
 }
 
-/// Both after the same time: an estimate of noise keeps growing while fireflies are still being found.
-std::array<Side, 2> sides_of(const Repetitions& base, const Repetitions& runs, ErrorMetric metric) {
-    std::array<Side, 2> sides{Side{curves_of(base, metric), {}}, Side{curves_of(runs, metric), {}}};
-    std::vector<Curve> all = sides[0].curves;
-    all.insert(all.end(), sides[1].curves.begin(), sides[1].curves.end());
+/// The runs of a baseline and of a method that are compared.
+struct Sides {
+    Side base;
+    Side own;
+    bool same_time = true;
+
+    bool have_enough_samples() const { return base.has_enough_samples() && own.has_enough_samples(); }
+};
+
+/// Both after the same time: an estimate of noise keeps growing while fireflies are still being found. Each at its end if one run is
+/// over so soon that the other had too few samples by then, and will have no more.
+Sides sides_of(const Repetitions& base, const Repetitions& runs, ErrorMetric metric) {
+    Sides sides{.base = {curves_of(base, metric), {}}, .own = {curves_of(runs, metric), {}}};
+    std::vector<Curve> all = sides.base.curves;
+    all.insert(all.end(), sides.own.curves.begin(), sides.own.curves.end());
+    const auto take_ends = [&](const std::optional<CostRange>& common) {
+        sides.base.ends = ends_of(base, metric, common);
+        sides.own.ends = ends_of(runs, metric, common);
+    };
     const auto common = common_range(all);
-    sides[0].ends = ends_of(base, metric, common);
-    sides[1].ends = ends_of(runs, metric, common);
+    take_ends(common);
+    if (common && !sides.have_enough_samples()) {
+        take_ends(std::nullopt);
+        sides.same_time = false;
+    }
     return sides;
 }
 
@@ -135,10 +152,10 @@ std::optional<RunGain> gain_of_run(RunList runs, const LiveRun& base, const Live
     const Repetitions base_runs = measured_repetitions(runs, base, *metric);
     const Repetitions own_runs = measured_repetitions(runs, run, *metric);
     if (base_runs.empty() || own_runs.empty()) return std::nullopt;
-    const auto [base_side, side] = sides_of(base_runs, own_runs, *metric);
-    if (!base_side.has_enough_samples() || !side.has_enough_samples()) return std::nullopt;
+    const Sides sides = sides_of(base_runs, own_runs, *metric);
+    if (!sides.have_enough_samples()) return std::nullopt;
 
-    const Gain gain = gain_over(base_side.ends, side.ends, base_side.curves, side.curves);
+    const Gain gain = gain_over(sides.base.ends, sides.own.ends, sides.base.curves, sides.own.curves);
     RunGain result{.net = {gain.net.value, 0.0, std::numeric_limits<double>::infinity()},
                    .sentence = fmt::format("{} {}", name_of(label_of_all(own_runs)),
                                            headline(gain, name_of(label_of_all(base_runs))))};
@@ -154,6 +171,7 @@ std::optional<RunGain> gain_of_run(RunList runs, const LiveRun& base, const Live
             result.sentence += block_text(result.net);
         }
     }
+    if (!sides.same_time) result.sentence += ". Each at its end: one ran too short to compare both after its time";
     if (*metric == ErrorMetric::Noise) result.sentence += ". By their own noise: there is no reference";
     return result;
 }

@@ -33,8 +33,8 @@ bool are_repetitions(const RunLabel& a, const RunLabel& b);
 std::vector<std::shared_ptr<const LiveRun>> repetitions_of(RunList runs, const LiveRun& like);
 
 /// `run` and its repetitions against `base` and its own. By Metrics::relmse if both have it, else by their own noise,
-/// which the sentence states. At the last time at which all were measured, else at the end of each. Empty while a side
-/// has too few samples.
+/// which the sentence states. At the last time at which all were measured, else, or if a side has too few samples by then, at the end of
+/// each. Empty while a side has too few samples there, too.
 std::optional<RunGain> gain_of_run(RunList runs, const LiveRun& base, const LiveRun& run);
 
 }  // namespace pl

@@ -45,10 +45,16 @@ MissingGain reason_without_gain(const LiveRun& run, bool has_base) {
     return has_base ? MissingGain::TooFewSamples : MissingGain::NoBase;
 }
 
-std::string remark_of(const RunRow& row) {
+/// Whether a has fewer samples than b.
+bool is_shorter(const LiveRun& a, const LiveRun& b) {
+    return a.points.empty() || (!b.points.empty() && a.points.back().spp < b.points.back().spp);
+}
+
+/// `shorter`: of the two runs that are compared.
+std::string remark_of(const RunRow& row, const RunLabel& shorter) {
     switch (row.missing) {
     case MissingGain::IsBase: return name_of(row.label) + ": other methods are compared with it";
-    case MissingGain::TooFewSamples: return name_of(row.label) + ": too few samples to compare yet";
+    case MissingGain::TooFewSamples: return name_of(shorter) + ": too few samples to compare yet";
     case MissingGain::NoBase: return missing_base_text(row.label);
     case MissingGain::None: break;
     }
@@ -68,7 +74,7 @@ RunRow row_of(RunList runs, const LiveRun& run) {
     const auto base = base_of(runs, run);
     if (base && run.label.method != baseline_method()) row.gain = gain_of_run(runs, *base, run);
     if (!row.gain) row.missing = reason_without_gain(run, base != nullptr);
-    row.remark = remark_of(row);
+    row.remark = remark_of(row, base && is_shorter(*base, run) ? base->label : run.label);
     return row;
 }
 

@@ -12,6 +12,7 @@
 #include <stb_image.h>
 
 #include "core/base/error.h"
+#include "core/base/memory.h"
 #include "core/io/files.h"
 #include "core/io/image_checks.h"
 
@@ -126,7 +127,9 @@ std::string unpacked_mesh(std::string_view packed, std::uint64_t version, const 
     constexpr std::size_t kMostRatio = 1032;  // of deflate   [zlib, Technical Details]
     const std::uint64_t most = std::min(kMostSerializedBytes, kMostRatio * packed.size());
     require_room(head, most, bytes);
-    return unpacked(packed, start.size() - bytes.left() + static_cast<std::size_t>(bytes_of_arrays(head)), file);
+    const std::uint64_t size = start.size() - bytes.left() + bytes_of_arrays(head);
+    require_memory(path.string(), size, ErrorKind::Input);
+    return unpacked(packed, static_cast<std::size_t>(size), file);
 }
 
 SerializedMesh read_mesh(Bytes file, std::uint64_t version) {

@@ -1,4 +1,6 @@
 // `pathlight report` from a shell: one page that needs no other file, and plots beside it.
+#include <algorithm>
+
 #include <nlohmann/json.hpp>
 
 #include "core/io/image.h"
@@ -66,6 +68,31 @@ TEST_CASE("a report is one page with plots, sentences, tables and pictures") {
     std::filesystem::remove_all(folder / "b/pictures");
     CHECK(run_program({"report", folder / "b", "-q"}).out.empty());
     CHECK_THAT(read_all(folder / "b/report.html"), contains("class=\"headline\""));
+}
+
+TEST_CASE("a scene may have any name") {
+    const TempDir folder;
+    const std::string name = "=1+1,\"<!--<script>";
+    write_all(folder / (name + ".obj"), "v -1 -1 0\nv 1 -1 0\nv 0 1 0\nf 1 2 3\n");
+    const ProgramResult bench =
+        run_program({"bench", folder / (name + ".obj"), "-o", folder / "b", "--size", "8x8", "--spp", "2", "--seeds",
+                     "1", "--backend", "cpu", "--volumes", "4", "--bins", "4", "--reference-spp", "2"});
+    CAPTURE(bench.err);
+    REQUIRE(bench.code == 0);
+    const std::string quoted = "\"'=1+1,\"\"<!--<script>\",";
+    for (const char* file : {"b/series.csv", "b/summary.csv"}) {
+        const std::vector<std::string> lines = lines_of(read_all(folder / file));
+        REQUIRE(lines.size() > 1);
+        const auto commas = std::ranges::count(lines[0], ',');
+        for (std::size_t i = 1; i < lines.size(); ++i) {
+            CHECK(lines[i].starts_with(quoted));
+            CHECK(std::ranges::count(lines[i], ',') == commas + 1);  // one in the name
+        }
+    }
+    REQUIRE(run_program({"report", folder / "b"}).code == 0);
+    const std::string page = read_all(folder / "b/report.html");
+    CHECK(page.find("<!--") == std::string::npos);
+    CHECK(json::parse(between(page, "id=\"pictures\">", "</script>"))[0].at("scene") == name);
 }
 
 TEST_CASE("2 and 3: reports that are refused") {

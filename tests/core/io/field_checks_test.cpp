@@ -58,7 +58,6 @@ std::vector<Wrong> wrong_settings() {
         {"precomputed slices: expected at most 9, got 10", [](F& f, V&) { f.progress.precomputed_slices = 10; }},
         {"next probe: expected 0, or below 12, got 12", [](F& f, V&) { f.progress.next_probe = 12; }},
         {"next probe: expected 0, or below 0, got 11", [](F& f, V&) { f.progress.precomputed_slices = 9; }},
-        {"seconds of precomputation: expected a time", [](F& f, V&) { f.progress.precompute_seconds = -1.0; }},
     };
 }
 

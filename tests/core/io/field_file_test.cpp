@@ -199,8 +199,8 @@ TEST_CASE("Other files and other versions are no damaged fields") {
     CHECK_THAT(told(""), contains("f: not a learned field: expected a file that begins with PLFIELD"));
     CHECK_THAT(told("v 0 0 0\n"), contains("not a learned field") && contains("got 76 20 30"));
     std::string newer = bytes;
-    newer[8] = 9;
-    CHECK_THAT(told(newer), contains("another version: expected 8, got 9"));
+    newer[8] = 10;
+    CHECK_THAT(told(newer), contains("another version: expected 9, got 10"));
     CHECK_THAT(input_error([&] { read_field(folder.path() / "gone"); }), contains("gone: cannot be read"));
     CHECK_THAT(input_error([&] { read_field(folder.path()); }), contains("it is a directory"));
 }

@@ -109,3 +109,27 @@ TEST_CASE("Names of images stay in the folder") {
     for (const char* outside : {"", "/a.png", "../a.png", "a/../../b.png", "C:\\a.png", "..\\a.png"})
         CHECK(path_inside("s", outside).empty());
 }
+
+TEST_CASE("Links stay in the folder, too") {
+    namespace fs = std::filesystem;
+    const TemporaryFolder folder;
+    const fs::path outside = folder.write("outside/a.png", "");
+    const fs::path scene = folder.write("scene/sub/a.png", "").parent_path().parent_path();
+    fs::create_symlink("sub/a.png", scene / "inside.png");
+    fs::create_symlink(outside, scene / "file.png");
+    fs::create_symlink("../outside", scene / "folder");
+    fs::create_symlink("../outside/gone.png", scene / "gone.png");
+    fs::create_symlink("loop.png", scene / "loop.png");
+    CHECK(path_inside(scene, "inside.png") == scene / "inside.png");
+    CHECK(path_inside(scene, "new.png") == scene / "new.png");
+    for (const char* name : {"file.png", "folder/a.png", "gone.png"}) {
+        INFO(name);
+        CHECK(path_inside(scene, name).empty());
+    }
+    // A folder that is reached by a link itself, and one that begins like another.
+    fs::create_directory_symlink(scene, folder.path() / "link");
+    CHECK(path_inside(folder.path() / "link", "inside.png") == folder.path() / "link/inside.png");
+    (void)folder.write("scene2/a.png", "");
+    fs::create_symlink("../scene2/a.png", scene / "beside.png");
+    CHECK(path_inside(scene, "beside.png").empty());
+}

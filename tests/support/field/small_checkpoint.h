@@ -22,6 +22,7 @@ inline Checkpoint small_checkpoint() {
                                      .seconds = 0.25,
                                      .volumes = learned.volumes};
     state.fields.push_back({.method = learned.method, .progress = learned.progress, .arrays = learned.field});
+    state.fields[0].progress.precompute_seconds = 0.3;
     state.fields[0].progress.forgotten = {0};
     state.films.resize(2);
     state.films[1].slot = {MethodId::Default, View::Beauty};

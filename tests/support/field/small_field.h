@@ -55,8 +55,7 @@ inline LearnedField small_field() {
                                     .clamped_records = 13,
                                     .lookup_misses = 7,
                                     .precomputed_slices = 4,
-                                    .next_probe = 11,
-                                    .precompute_seconds = 0.3}};
+                                    .next_probe = 11}};
     HostTables tables = make_tables(field.shape, kVolumes);
     std::mt19937 random(1);
     const auto uniform = [&] { return std::uniform_real_distribution<float>(0.0f, 1.0f)(random); };

@@ -157,6 +157,25 @@ TEST_CASE("Run table: as plain when learning loses, and without a reference") {
     CHECK(row.gain->net.value < 1.0);
 }
 
+TEST_CASE("Run table: a baseline that is over before the other run had a few samples is compared all the same") {
+    const auto slow = [](std::uint32_t last_sample) {
+        return make_run({.number = 2,
+                         .method = MethodId::Reinforcement,
+                         .seconds_per_sample = 1.0,
+                         .error_of_sample = 0.25,
+                         .last_sample = last_sample});
+    };
+    const auto base = make_run({.seconds_per_sample = 0.1, .last_sample = 16});  // 1.6 s
+    const RunRow row = compared_row(make_run_table(Runs{base, slow(128)}, kThisPicture));
+    REQUIRE(row.gain);
+    CHECK_THAT(row.gain->net.value, WithinRel(0.4, 1e-9));
+    CHECK_THAT(row.remark, contains("Each at its end"));
+    // It had enough by then: no word.
+    const RunRow long_base = compared_row(make_run_table(Runs{make_run({}), slow(128)}, kThisPicture));
+    REQUIRE(long_base.gain);
+    CHECK(long_base.remark.find("Each at its end") == std::string::npos);
+}
+
 TEST_CASE("Run table: says what to do while there is nothing to compare") {
     CHECK_THAT(make_run_table({}, kThisPicture).note, contains("Nothing measured yet"));
     CHECK_THAT(make_run_table(Runs{make_run({})}, kThisPicture + 1).note, contains("Nothing measured yet"));
@@ -169,6 +188,11 @@ TEST_CASE("Run table: says what to do while there is nothing to compare") {
     CHECK_THAT(make_run_table(alone, kThisPicture).rows[0].remark, contains("nothing to be compared with yet"));
     const Runs few{make_run({}), make_run({.number = 3, .method = MethodId::Reinforcement, .last_sample = 4})};
     CHECK(gain_text(compared_row(make_run_table(few, kThisPicture))) == "too few samples");
+    CHECK_THAT(compared_row(make_run_table(few, kThisPicture)).remark,
+               contains("Reinforcement CPU: too few samples"));
+    const Runs short_base{make_run({.last_sample = 4}), make_run({.number = 3, .method = MethodId::Reinforcement})};
+    CHECK_THAT(compared_row(make_run_table(short_base, kThisPicture)).remark,
+               contains("Default CPU: too few samples"));
     // A default run of another picture is no baseline.
     const Runs other{make_run({.picture = 8}), make_run({.number = 2, .method = MethodId::Reinforcement})};
     CHECK_THAT(make_run_table(other, kThisPicture).rows[0].remark, contains("nothing to be compared with yet"));
