@@ -6,7 +6,7 @@
 #include <cstdint>
 
 #include "core/kernel/base/math.h"
-#include "core/kernel/base/rng.h"
+#include "core/kernel/film/vertex_sequence.h"
 #include "core/kernel/guiding/table_field.h"
 #include "core/kernel/scene/instances.h"
 #include "core/kernel/shading/lights.h"
@@ -52,11 +52,12 @@ struct WideInstances {
     const BvhTriangle* mesh_triangles;
 };
 
-/// The arguments of Rng::draw that a batch has in common.
+/// The arguments of Rng::draw, and of vertex_numbers(), that a batch has in common.
 struct DrawKey {
     std::uint64_t seed = 0;
     Stream stream = Stream::Picture;
     Purpose purpose = Purpose::Scatter;
+    VertexSequences sequences{};
 };
 
 /// The remaining arguments of Rng::draw, per lane.

@@ -41,8 +41,10 @@ public:
 
     /// Draws the numbers of the first `count` paths.
     void draw(const PathSettings& settings, std::uint32_t count) {
-        draw_rows({settings.seed, settings.stream, Purpose::Scatter}, scatter_, count);
-        if (!light_.empty()) draw_rows({settings.seed, settings.stream, Purpose::Light}, light_, count);
+        DrawKey key{settings.seed, settings.stream, Purpose::Scatter, settings.sequences};
+        draw_rows(key, scatter_, count);
+        key.purpose = Purpose::Light;
+        if (!light_.empty()) draw_rows(key, light_, count);
     }
 
     VertexNumbers numbers(std::uint32_t index) const {

@@ -56,11 +56,11 @@ PL_INLINE PhiloxWords<LaneUint> vertex_bits_lanes(const DrawKey& key, const Coun
     const auto sample = load_lanes<LaneUint>(counters.sample + first);
     const LaneInt spread = load_lanes<LaneUint>(counters.vertex + first) == kSpreadVertex;
     if (key.stream != Stream::Picture || mask_bits(spread) == 0) return bits_lanes(key, counters, first, sample);
-    const LaneUint sequence = sequence_of(sample);
+    const auto [sequence, steps] = sequence_member(key.sequences, sample);
     PhiloxWords<LaneUint> bits = bits_lanes(key, counters, first, spread ? sequence : sample);
     const LaneUint seed =
         sequence_seed(key.seed, load_lanes<LaneUint>(counters.pixel + first), sequence, key.purpose);
-    const PhiloxWords<LaneUint> members = spread_bits(bits, seed, sample >> 1);
+    const PhiloxWords<LaneUint> members = spread_bits(bits, seed, steps);
     for (int i = 0; i < 4; ++i) bits.v[i] = spread ? members.v[i] : bits.v[i];
     return bits;
 }

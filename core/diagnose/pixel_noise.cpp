@@ -10,7 +10,7 @@ PixelNoiseTracer::PixelNoiseTracer(PassPair passes, std::uint32_t pixel) : passe
     passes_.plain.path.stream = Stream::Inspection;
     if (!passes_.guided) return;
     passes_.guided->path.stream = Stream::Inspection;
-    passes_.guided->switches.clear();
+    passes_.guided->runs = {{}};
     field_ = field_of(*passes_.guided);
 }
 

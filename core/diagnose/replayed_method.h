@@ -18,15 +18,17 @@ inline bool is_guided_path(const PassReplay& passes, std::uint32_t sample) {
 /// target, which does not change paths; its members that are constant during a pass are set here.
 template <template <class> class GuidedBy, class Trace>
 auto with_replayed_method(const PassReplay& passes, const AnyFieldView& field, std::uint32_t sample, Trace&& trace) {
-    if (!is_guided_path(passes, sample))
-        return trace(DefaultMethod{}, passes.volumes ? passes.unguided_path : passes.path);
+    const bool is_guided = is_guided_path(passes, sample);
+    PathSettings path = is_guided || !passes.volumes ? passes.path : passes.unguided_path;
+    path.sequences = passes.run_of(sample - passes.first_sample).sequences;
+    if (!is_guided) return trace(DefaultMethod{}, path);
     return visit_field(field, [&](const auto& view) {
         using Field = std::remove_cvref_t<decltype(view)>;
         GuidedBy<Field> method;
         static_cast<Field&>(method.field) = view;
         method.mixture = passes.mixture;
         method.learning = passes.learning;
-        return trace(method, passes.has_moving_tables ? at_pass(passes.path, sample) : passes.path);
+        return trace(method, passes.has_moving_tables ? at_pass(path, sample) : path);
     });
 }
 

@@ -12,7 +12,7 @@
 namespace pl {
 namespace {
 
-constexpr SealedKind kCheckpointKind{.magic = "PLCHECK\n", .version = 5, .title = "checkpoint", .word = "checkpoint"};
+constexpr SealedKind kCheckpointKind{.magic = "PLCHECK\n", .version = 6, .title = "checkpoint", .word = "checkpoint"};
 
 /// transfer(), also for the kinds of values that only checkpoints hold. Each works for writing, with constant values, and for
 /// reading.
@@ -84,12 +84,16 @@ public:
         counters(film.measured);
         counters(film.trial.guided);
         counters(film.trial.baseline);
-        transfer_array(stream_, film.switches);
+        each(film.runs, [this](auto& run) {
+            all(run.first_pass, run.first_sample, run.sequences.name, run.sequences.first_sample, run.is_guided,
+                run.trains);
+        });
+        one(film.updates_seen);
     }
 
     template <class Progress>
     void learning(Progress& progress) {
-        all(progress.passes, progress.untrained_passes, progress.records, progress.clamped_records,
+        all(progress.passes, progress.untrained_passes, progress.updates, progress.records, progress.clamped_records,
             progress.lookup_misses, progress.precomputed_slices, progress.next_probe, progress.precompute_seconds,
             progress.is_well_trained, progress.has_part, progress.was_edited);
         transfer_array(stream_, progress.forgotten);

@@ -144,6 +144,8 @@ private:
     Progress precompute_slice(FilmSlot slot, const StopFlag* stop);
     Progress render_slot(FilmSlot slot, const StopFlag* stop, std::uint32_t most_passes = 1);
     Progress render_passes(FilmSlot slot, const StopFlag* stop, std::uint32_t most);
+    void begin_run_if_due(FilmSlot slot);
+    std::uint32_t sample_number(FilmSlot slot) const;
     std::uint32_t equal_passes(FilmSlot slot, std::uint32_t most) const;
     void finish_pass(FilmSlot slot);
     bool render_parts_before(FilmSlot slot, std::uint32_t pixel, const StopFlag* stop);

@@ -29,6 +29,7 @@ PassReplay Session::pass_replay(FilmSlot slot) const {
                       .path = path_settings(settings_, slot.method),
                       .camera = view_camera(),
                       .is_closed = scene_.is_closed()};
+    if (!state.runs.empty()) source.runs = state.runs;
     if (state.counters.invalid_samples > 0) source.invalid = backend_->invalid_samples(slot);
     if (!method.uses_field) return source;
     if (!placement_.is_placed() || !backend_->has_field(slot.method)) return source;  // nothing is rendered yet
@@ -45,7 +46,6 @@ PassReplay Session::pass_replay(FilmSlot slot) const {
     source.mixture = mixture_of(settings_, slot.method);
     source.learning = settings_.field.learning;
     source.unguided_path = path_settings(settings_, baseline_method());
-    source.switches = state.switches;
     return source;
 }
 

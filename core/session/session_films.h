@@ -7,6 +7,7 @@
 
 #include "core/session/backend.h"
 #include "core/session/guiding_choice.h"
+#include "core/session/pass_replay.h"
 #include "core/session/snapshot.h"
 
 namespace pl {
@@ -34,7 +35,8 @@ struct FilmProgress {
     std::uint32_t unguided_passes = 0;
     TrialProgress trial{};
     std::uint64_t trial_paths = 0;
-    std::vector<std::uint32_t> switches{};  ///< passes by which guiding begins or ends; the first pass is guided
+    std::vector<PassRun> runs{};     ///< of all passes, the one under way included
+    std::uint64_t updates_seen = 0;  ///< FieldProgress::updates at the beginning of the last run
 };
 
 /// A back end that is not in use, with its films and the scene uploaded to it.

@@ -48,7 +48,7 @@ GuidingTerms Session::guiding_terms(FilmSlot slot) const {
 /// resumes them.
 bool Session::choose_guiding(FilmSlot slot, const StopFlag* stop) {
     FilmProgress& state = films_[slot];
-    if (!chooses_guiding(slot) || !is_updated_after(state.passes)) return true;
+    if (state.next_pixel > 0 || !chooses_guiding(slot) || !is_updated_after(state.passes)) return true;
     const bool knows = info_of(slot.method).learns && (field(slot.method).passes > 0 || is_frozen(slot.method));
     if (knows && state.guiding.is_warming_up()) state.guiding.trust_field();
     if (!warms_up(slot)) state.guiding.begin_guided();
@@ -60,9 +60,7 @@ bool Session::choose_guiding(FilmSlot slot, const StopFlag* stop) {
         state.trial = {};
     }
     state.measured = {};
-    const bool is_guided = state.guiding.pays();
-    if (is_guided != state.is_guided) state.switches.push_back(state.passes);
-    state.is_guided = is_guided;
+    state.is_guided = state.guiding.pays();
     return true;
 }
 

@@ -40,6 +40,7 @@ void Session::prepare_training(FilmSlot slot) {
 void Session::update_trained(MethodId method) {
     backend_->update_field(method);
     FieldProgress& learned = field(method);
+    ++learned.updates;
     learned.is_well_trained = learned.records >= kEnoughSamplesPerVolume * placement_.count();
 }
 
@@ -72,6 +73,7 @@ void Session::forget_due_volumes(MethodId method) {
     for (const std::int32_t volume : learned.forgotten)
         pl::forget_volume(placement_.shape(), *placement_.volumes(), arrays, static_cast<std::size_t>(volume));
     backend_->upload_field(method, std::move(arrays));
+    ++learned.updates;
     learned.forgotten.clear();
 }
 

@@ -61,7 +61,10 @@ Progress Session::precompute_slice(FilmSlot slot, const StopFlag* stop) {
         ++map.precomputed_slices;
         if (is_map_complete(slot.method)) ++map.passes;
     }
-    if (is_reached && (map.next_probe > 0 || is_map_complete(slot.method))) backend_->update_field(slot.method);
+    if (is_reached && (map.next_probe > 0 || is_map_complete(slot.method))) {
+        backend_->update_field(slot.method);
+        ++map.updates;
+    }
     map.precompute_seconds += watch.seconds();
     return is_reached ? Progress::Precomputed : Progress::Stopped;
 }

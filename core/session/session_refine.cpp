@@ -39,10 +39,11 @@ void Session::replace_volumes(MethodId learner, RefinedPlacement refined, HostFi
     for (const MethodInfo& other : all_methods()) {
         if (other.id == learner || !backend_->has_field(other.id)) continue;
         FieldProgress& progress = field(other.id);
+        ++progress.updates;
         if (progress.passes > 0)
             tables.emplace_back(other.id, split_field(shape, backend_->download_field(other.id), refined.parents));
         else
-            progress = {.precompute_seconds = progress.precompute_seconds};
+            progress = {.updates = progress.updates, .precompute_seconds = progress.precompute_seconds};
     }
     placement_.refine(*backend_, *scene_.packed(), std::move(refined));
     try {

@@ -31,8 +31,9 @@ Progress Session::advance_to_path(FilmSlot slot, std::uint32_t pixel, const Stop
     prepare_film(slot);
     if (needs_precompute(slot)) return precompute_slice(slot, stop);
     prepare_pass(slot);
-    if (films_[slot].next_pixel == 0 && !choose_guiding(slot, stop)) return Progress::Stopped;
+    if (!choose_guiding(slot, stop)) return Progress::Stopped;
     if (needs_precompute(slot)) return Progress::Precomputed;
+    begin_run_if_due(slot);
     return render_parts_before(slot, pixel, stop) ? Progress::Rendered : Progress::Stopped;
 }
 
@@ -82,13 +83,40 @@ void Session::prepare_pass(FilmSlot slot) {
 /// The rest of a pass, in parts, or several whole passes.
 Progress Session::render_passes(FilmSlot slot, const StopFlag* stop, std::uint32_t most) {
     FilmProgress& state = films_[slot];
-    if (state.next_pixel == 0 && !choose_guiding(slot, stop)) return Progress::Stopped;
+    if (!choose_guiding(slot, stop)) return Progress::Stopped;
     if (needs_precompute(slot)) return Progress::Precomputed;  // by the choice just made
+    begin_run_if_due(slot);
     if (!render_parts_before(slot, pixel_count() - 1, stop)) return Progress::Stopped;
     render_part(slot, pixel_count(), stop, equal_passes(slot, most));
     if (state.next_pixel < pixel_count()) return Progress::Stopped;
     for (; state.next_pixel >= pixel_count(); state.next_pixel -= pixel_count()) finish_pass(slot);
     return Progress::Rendered;
+}
+
+/// Tables are trained by the members that passes have drawn, so after each of their changes passes that train draw from sequences of
+/// their own. On the others nothing depends but the choice of guiding: while it stays they go on where the last of them ended.
+void Session::begin_run_if_due(FilmSlot slot) {
+    FilmProgress& state = films_[slot];
+    std::vector<PassRun>& runs = state.runs;
+    if (state.next_pixel > 0 || slot.view != View::Beauty) return;
+    PassRun next{.first_pass = state.passes,
+                 .first_sample = sample_number(slot),
+                 .is_guided = state.is_guided,
+                 .trains = learns_from(slot) && state.is_guided && state.trains};
+    next.sequences = next.trains ? next.own_sequences() : next.sequences_behind(runs);
+    const std::uint64_t updates = field(slot.method).updates;
+    const bool goes_on =
+        !runs.empty() && next.is_like(runs.back()) && (!next.trains || updates == state.updates_seen);
+    if (goes_on || (!runs.empty() && runs.back().first_pass == state.passes))
+        return;  // or it was stopped before its first path
+    runs.push_back(next);
+    state.updates_seen = updates;
+}
+
+/// Of the pass under way. Random numbers of a learner go by the passes of its field, since those of its earlier pictures have trained
+/// the tables, see FieldProgress::without_part().
+std::uint32_t Session::sample_number(FilmSlot slot) const {
+    return learns_from(slot) ? static_cast<std::uint32_t>(field(slot.method).passes) : films_[slot].passes;
 }
 
 /// The number of passes from the present one on, at most `most`, between which nothing changes but the number of the sample.
@@ -137,11 +165,10 @@ bool Session::first_passes_weigh_less(FilmSlot slot) const {
 /// One sample for every pixel, by directions of a method.
 PassRequest Session::pass_request(FilmSlot slot, MethodId method, const StopFlag* stop) const {
     const FilmProgress& state = films_[slot];
-    // Random numbers that were not drawn for the training samples of the tables, see FieldProgress::without_part().
-    std::uint32_t sample = learns_from(slot) ? static_cast<std::uint32_t>(field(slot.method).passes) : state.passes;
     // Passes of a heat map replace one another: they use the same points, so that borders do not flicker.
-    if (is_heat_map(slot.view)) sample = 0;
-    const PathSettings path = path_settings(settings_, method);
+    const std::uint32_t sample = is_heat_map(slot.view) ? 0 : sample_number(slot);
+    PathSettings path = path_settings(settings_, method);
+    if (!state.runs.empty()) path.sequences = state.runs.back().sequences;
     return {.slot = slot,
             .is_guided = method == slot.method,
             .trains = state.trains,
@@ -182,6 +209,7 @@ void Session::render_part(FilmSlot slot, std::uint32_t end, const StopFlag* stop
 void Session::finish_learning_part(FilmSlot slot) {
     const Stopwatch watch;
     backend_->update_field(slot.method);
+    ++field(slot.method).updates;
     field(slot.method).has_part = true;
     films_[slot].learn_seconds += watch.seconds();
 }

@@ -7,8 +7,8 @@
 
 namespace pl {
 
-/// Most passes between two updates: the sums of a cell cannot overflow within them.
-inline constexpr std::uint32_t kMostPassesWithoutUpdate = 16;
+/// Most passes that train between two updates of a field with enough samples: their pending sums stay far from an overflow.
+inline constexpr std::uint32_t kMostTrainingPasses = 16;
 
 /// Fewest paths before an update.
 inline constexpr std::uint32_t kFewestPathsBeforeUpdate = 1024;
@@ -22,13 +22,11 @@ constexpr std::uint32_t end_of_first_part(std::uint32_t done, std::uint32_t coun
     return static_cast<std::uint32_t>(std::min(end, std::uint64_t{count}));
 }
 
-/// Passes from one update to the next: 1 for each of the first sixteen passes, then about an eighth of the passes so far. Tables are
-/// never far behind, and updates, whose cost does not depend on the number of training samples, stay rare in small
-/// pictures. `passes` are complete ones since the film was last cleared, so that tables adapt to a moved camera at
-/// once.
-constexpr std::uint32_t update_interval(std::uint32_t passes) {
-    return std::clamp(std::bit_floor(passes) / 8, 1u, kMostPassesWithoutUpdate);
-}
+/// Passes from one update to the next: half of the largest power of two among the passes so far, so that there are updates after 1, 2,
+/// 3, 4, 6, 8, 12, 16, ... passes. Tables are never far behind, and the numbers of first vertices, which begin anew with every update,
+/// are spread over many passes (docs/notebook/2026-11-29-fresh-numbers.md). `passes` are complete ones since the film was last cleared,
+/// so that tables adapt to a moved camera at once.
+constexpr std::uint32_t update_interval(std::uint32_t passes) { return std::max(std::bit_floor(passes) / 2, 1u); }
 /// Whether an update follows so many complete passes. Guiding is chosen anew only here, too, so that a back end may render all passes
 /// up to here at once.
 constexpr bool is_updated_after(std::uint32_t passes) { return passes % update_interval(passes) == 0; }
@@ -42,9 +40,9 @@ inline constexpr std::uint32_t kTrainingInterval = 4;
 /// Whether a pass trains the field; `pass` is its number since the film was last cleared. Passes that train a field with enough
 /// samples are the last ones before an update, together, so that a back end may render those before them at once.
 constexpr bool is_trained_by(std::uint32_t pass, bool has_enough_samples) {
-    const std::uint32_t interval = std::max(update_interval(pass), kTrainingInterval);
-    return !has_enough_samples || pass < kMostPassesWithoutUpdate ||
-           pass % interval >= interval - interval / kTrainingInterval;
+    const std::uint32_t interval = update_interval(pass);
+    if (!has_enough_samples || interval < 2 * kTrainingInterval) return true;
+    return pass % interval >= interval - std::min(interval / kTrainingInterval, kMostTrainingPasses);
 }
 
 }  // namespace pl

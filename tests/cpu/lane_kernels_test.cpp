@@ -54,18 +54,20 @@ TEST_CASE("Every instruction set draws the numbers of vertices as one path alone
         for (int round = 0; round < 200; ++round) {
             const DrawKey key{(std::uint64_t{random.bits()} << 32) | random.bits(),
                               static_cast<Stream>(random.below(4)),
-                              random.below(2) == 0 ? Purpose::Scatter : Purpose::Light};
+                              random.below(2) == 0 ? Purpose::Scatter : Purpose::Light,
+                              {random.bits() >> random.below(32), random.bits() >> random.below(32)}};
             CounterGroup counters;
             NumberGroup numbers;
             for (std::uint32_t lane = 0; lane < kGroupSize; ++lane) {
                 counters.pixel[lane] = random.bits();
-                counters.sample[lane] = random.bits() >> random.below(32);
+                counters.sample[lane] = key.sequences.first_sample + (random.bits() >> random.below(32));
                 counters.vertex[lane] = 1 + random.below(2 + round % 2);
             }
             kernels.draw_vertices(key, &counters, &numbers, 1);
             for (std::uint32_t lane = 0; lane < kGroupSize; ++lane) {
                 const Rng rng{key.seed, key.stream, counters.pixel[lane], counters.sample[lane]};
-                REQUIRE(same_bits(numbers.get(lane), vertex_numbers(rng, counters.vertex[lane], key.purpose)));
+                REQUIRE(same_bits(numbers.get(lane),
+                                  vertex_numbers(rng, key.sequences, counters.vertex[lane], key.purpose)));
             }
         }
     }
@@ -73,7 +75,7 @@ TEST_CASE("Every instruction set draws the numbers of vertices as one path alone
 
 TEST_CASE("A batch of numbers gives the numbers of a vertex alone") {
     constexpr FeatureSet kLights = FeatureSet{}.with(Feature::NextEventEstimation);
-    const PathSettings settings{.seed = 0x123456789abcdef0u, .next_event = 1};
+    const PathSettings settings{.seed = 0x123456789abcdef0u, .sequences = {20, 77}, .next_event = 1};
     Uniforms random(8);
     std::vector<PathState<kLights, DefaultMethod>> states(37);
     NumberBatch batch(37, true);

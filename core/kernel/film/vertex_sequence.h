@@ -38,13 +38,34 @@ PL_INLINE PhiloxWords<Word> spread_bits(const PhiloxWords<Word>& shift, Word see
              shift.v[3] ^ reversed_bits(scramble_reversed(index_w, scramble))}};
 }
 
+/// The sequences that first vertices draw from, one for each half of the passes: named by numbers, so that a new name gives fresh ones.
+struct VertexSequences {
+    std::uint32_t name = 0;          ///< of the first; the other has the next number
+    std::uint32_t first_sample = 0;  ///< the pass of their first members
+
+    friend bool operator==(const VertexSequences&, const VertexSequences&) = default;
+};
+
+/// The member that a pass draws.
+template <class Word>
+struct SequenceMember {
+    Word sequence;
+    Word steps;  ///< members before it
+};
+template <class Word>
+PL_INLINE SequenceMember<Word> sequence_member(const VertexSequences& sequences, Word sample) {
+    const Word passes = sample - sequences.first_sample;
+    return {sequences.name + (passes & 1u), passes >> 1};
+}
+
 /// The numbers of a path for a vertex and purpose: Rng::draw(), or a member of a sequence.
-PL_HD inline Vec4f vertex_numbers(const Rng& rng, std::uint32_t vertex, Purpose purpose) {
+PL_HD inline Vec4f vertex_numbers(const Rng& rng, const VertexSequences& sequences, std::uint32_t vertex,
+                                  Purpose purpose) {
     const bool is_spread = vertex == kSpreadVertex && rng.stream == Stream::Picture;
-    const std::uint32_t sequence = sequence_of(rng.sample);
+    const auto [sequence, steps] = sequence_member(sequences, rng.sample);
     // One call for both cases, which the lanes of a warp make together.
     Philox words = Rng{rng.seed, rng.stream, rng.pixel, is_spread ? sequence : rng.sample}.bits(vertex, purpose);
-    if (is_spread) words = spread_bits(words, sequence_seed(rng.seed, rng.pixel, sequence, purpose), rng.sample / 2);
+    if (is_spread) words = spread_bits(words, sequence_seed(rng.seed, rng.pixel, sequence, purpose), steps);
     return to_unit_floats(words);
 }
 

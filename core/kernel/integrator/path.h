@@ -7,6 +7,7 @@
 #include "core/kernel/base/features.h"
 #include "core/kernel/base/rng.h"
 #include "core/kernel/film/sample_variance.h"
+#include "core/kernel/film/vertex_sequence.h"
 #include "core/kernel/integrator/branches.h"
 #include "core/kernel/shading/absorption.h"
 #include "core/kernel/shading/light_tree.h"
@@ -25,6 +26,7 @@ enum class RouletteRule : std::uint32_t {
 struct PathSettings {
     std::uint64_t seed = 1;
     Stream stream = Stream::Picture;
+    VertexSequences sequences{};
     std::uint32_t max_depth = 64;  ///< most surface vertices of a path; longer ones are truncated and counted
     std::uint32_t roulette_start =
         3;  ///< vertices after which Russian roulette may end a path, see counted_vertices()

@@ -4,7 +4,6 @@
 // apart, so that they can sample directions, and evaluate densities of directions and of lights, for many paths at once.
 #pragma once
 
-#include "core/kernel/film/vertex_sequence.h"
 #include "core/kernel/integrator/environment.h"
 #include "core/kernel/integrator/light_sample.h"
 #include "core/kernel/integrator/roulette.h"
@@ -27,9 +26,11 @@ struct VertexNumbers {
 template <FeatureSet F, class M>
 PL_HD inline VertexNumbers draw_vertex_numbers(const PathSettings& settings, const PathState<F, M>& state) {
     const Rng rng = path_rng(settings, state.pixel, state.sample);
-    VertexNumbers numbers{.scatter = vertex_numbers(rng, state.draw_index() + 1, Purpose::Scatter)};
+    VertexNumbers numbers{.scatter =
+                              vertex_numbers(rng, settings.sequences, state.draw_index() + 1, Purpose::Scatter)};
     if constexpr (F.has(Feature::NextEventEstimation)) {
-        if (settings.next_event != 0) numbers.light = vertex_numbers(rng, state.draw_index() + 1, Purpose::Light);
+        if (settings.next_event != 0)
+            numbers.light = vertex_numbers(rng, settings.sequences, state.draw_index() + 1, Purpose::Light);
     }
     return numbers;
 }

@@ -32,7 +32,8 @@ inline Checkpoint small_checkpoint() {
     film.progress.is_allocated = true;
     film.progress.passes = 3;
     film.progress.next_pixel = 2;
-    film.progress.switches = {1, 3};
+    film.progress.runs = {{}, {1, 5, {10, 5}, false, false}, {3, 7, {14, 7}, true, true}};
+    film.progress.updates_seen = 4;
     film.progress.counters.path.method.lookup_misses = 77;
     film.progress.counters.variance.sum = 5;
     film.progress.counters.variance.relative = 6;

@@ -46,6 +46,14 @@ inline LampOverFloor lamp_above(float x, float z) {
             static_cast<double>(rectangle_detail::kAlbedo) * factor};
 }
 
+/// The lamp is a strip at height 0.5, x in [-2, 2], z in [0.1, 0.14], and shines down.
+inline LampOverFloor lamp_strip() {
+    const std::array<Vec3f, 4> lamp{Vec3f{-2.0f, 0.5f, 0.1f}, Vec3f{2.0f, 0.5f, 0.1f}, Vec3f{2.0f, 0.5f, 0.14f},
+                                    Vec3f{-2.0f, 0.5f, 0.14f}};
+    const double factor = 2.0 * (parallel_corner_factor(2.0, 0.14, 0.5) - parallel_corner_factor(2.0, 0.1, 0.5));
+    return {rectangle_detail::lamp_scene(lamp, Vec3f{0.0f}), static_cast<double>(rectangle_detail::kAlbedo) * factor};
+}
+
 /// The lamp stands on the floor in the plane z = 0, x in [-0.5, 0.7], 0.8 high, and shines towards +z.
 inline LampOverFloor lamp_beside(float x, float z) {
     const std::array<Vec3f, 4> lamp{Vec3f{-0.5f, 0.0f, 0.0f}, Vec3f{0.7f, 0.0f, 0.0f}, Vec3f{0.7f, 0.8f, 0.0f},

@@ -13,16 +13,17 @@ using namespace pl;
 
 namespace {
 
-Vec4f numbers_of(std::uint32_t pixel, std::uint32_t pass, Purpose purpose = Purpose::Scatter) {
-    return vertex_numbers(Rng{1, Stream::Picture, pixel, pass}, kSpreadVertex, purpose);
+Vec4f numbers_of(std::uint32_t pixel, std::uint32_t pass, Purpose purpose = Purpose::Scatter,
+                 VertexSequences sequences = {}) {
+    return vertex_numbers(Rng{1, Stream::Picture, pixel, pass}, sequences, kSpreadVertex, purpose);
 }
 
-/// Mean of an integrand over the even or odd passes of a pixel, less its true mean.
+/// Mean of an integrand over every other pass of a pixel from `first` on, less its true mean.
 template <class Integrand>
-double deviation(std::uint32_t pixel, std::uint32_t half, std::uint32_t passes, Purpose purpose,
-                 const Integrand& integrand) {
+double deviation(std::uint32_t pixel, std::uint32_t first, std::uint32_t passes, Purpose purpose,
+                 const Integrand& integrand, VertexSequences sequences = {}) {
     double sum = 0.0;
-    for (std::uint32_t i = 0; i < passes; ++i) sum += integrand(numbers_of(pixel, 2 * i + half, purpose));
+    for (std::uint32_t i = 0; i < passes; ++i) sum += integrand(numbers_of(pixel, first + 2 * i, purpose, sequences));
     return sum / passes;
 }
 
@@ -47,7 +48,8 @@ TEST_CASE("Only first vertices of camera paths have numbers of a sequence") {
         for (std::uint32_t vertex = 0; vertex < 4; ++vertex) {
             const Rng rng{3, stream, 17, 9};
             const bool spread = stream == Stream::Picture && vertex == kSpreadVertex;
-            CHECK((vertex_numbers(rng, vertex, Purpose::Light) == rng.draw(vertex, Purpose::Light)) != spread);
+            CHECK((vertex_numbers(rng, {8, 4}, vertex, Purpose::Light) == rng.draw(vertex, Purpose::Light)) !=
+                  spread);
         }
 }
 
@@ -72,6 +74,32 @@ TEST_CASE("The passes of a half form nets: 64 numbers in 64 intervals") {
                 REQUIRE(of_choice.size() == 64);
                 REQUIRE(of_kind.size() == 64);
             }
+}
+
+TEST_CASE("The passes of a run form nets, whatever its first pass") {
+    for (const std::uint32_t first : {1u, 2u, 5u, 64u, 1000u, 0xfffffff0u})
+        for (std::uint32_t pixel = 0; pixel < 50; ++pixel)
+            for (const std::uint32_t half : {0u, 1u}) {
+                std::set<int> intervals;
+                for (std::uint32_t i = 0; i < 16; ++i) {
+                    const Vec4f u = numbers_of(pixel, first + half + 2 * i, Purpose::Scatter, {2 * first, first});
+                    intervals.insert(static_cast<int>(4.0f * u.y) * 4 + static_cast<int>(4.0f * u.z));
+                }
+                REQUIRE(intervals.size() == 16);
+            }
+}
+
+// Seed 1. Members of one sequence that follow each other even out the deviation of those before; fresh ones must not.
+TEST_CASE("Runs have independent deviations, and each pass of one is uniform over the pixels") {
+    for (const std::uint32_t first : {4u, 5u, 16u, 64u})
+        test::check_independent([=](std::uint32_t pixel) {
+            return std::array<double, 2>{
+                deviation(pixel, first % 2, first / 2, Purpose::Scatter, in_disk),
+                deviation(pixel, first, first / 2, Purpose::Scatter, in_disk, {2 * first, first})};
+        });
+    test::check_passes_are_uniform([](std::uint32_t pixel, std::uint32_t pass) {
+        return numbers_of(pixel, 7 + pass, Purpose::Scatter, {14, 7});
+    });
 }
 
 // Independent numbers would be off by sqrt(p (1-p) / 64): 0.051 for the disk, 0.063 for the choice and the disk together.
