@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "core/base/memory.h"
 #include "core/io/decode_image.h"
 #include "core/io/files.h"
 
