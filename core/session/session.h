@@ -169,6 +169,7 @@ private:
     void prepare_training(FilmSlot slot);
     void update_trained(MethodId method);
     bool is_trained_by_pass(FilmSlot slot, std::uint32_t pass) const;
+    bool is_update_due(FilmSlot slot, std::uint32_t passes) const;
     void forget_volume(const EditForgetVolume& edit);
     void forget_due_volumes(MethodId method);
     std::uint32_t end_of_part(FilmSlot slot) const;

@@ -51,6 +51,11 @@ bool Session::is_trained_by_pass(FilmSlot slot, std::uint32_t pass) const {
     return !is_frozen(slot.method) && is_trained_by(pass, learned.is_well_trained && !learned.was_edited);
 }
 
+/// Whether so many passes of a film that train are followed by an update: of an edited field soon, however many passes the film has.
+bool Session::is_update_due(FilmSlot slot, std::uint32_t passes) const {
+    return is_updated_after(passes) || (field(slot.method).was_edited && passes % kMostTrainingPasses == 0);
+}
+
 void Session::forget_volume(const EditForgetVolume& edit) {
     if (!info_of(edit.method).learns || !placement_.is_placed() || !backend_->has_field(edit.method))
         throw Error(ErrorKind::Usage, "method '" + std::string(info_of(edit.method).name) +

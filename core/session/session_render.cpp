@@ -128,7 +128,8 @@ std::uint32_t Session::equal_passes(FilmSlot slot, std::uint32_t most) const {
     if (!learns && !chooses_guiding(slot)) return most;
     const std::uint64_t left = learns ? settings_.learn_passes - trained_passes(slot.method) : most;
     const auto is_equal = [&](std::uint32_t pass) {
-        return !is_updated_after(pass) && (!learns || is_trained_by_pass(slot, pass) == state.trains);
+        if (!learns) return !is_updated_after(pass);
+        return !is_update_due(slot, pass) && is_trained_by_pass(slot, pass) == state.trains;
     };
     std::uint32_t passes = 1;
     while (passes < most && passes < left && is_equal(state.passes + passes)) ++passes;
@@ -223,7 +224,7 @@ void Session::finish_learning_pass(FilmSlot slot) {
     learned.untrained_passes += has_trained ? 0u : 1u;
     // Where guiding does not pay, passes that learn are rare.
     const bool is_updated =
-        has_trained && (is_updated_after(state.passes) || !state.guiding.pays() || is_frozen(slot.method));
+        has_trained && (is_update_due(slot, state.passes) || !state.guiding.pays() || is_frozen(slot.method));
     if (is_updated) update_trained(slot.method);
     learned.has_part = false;
     if (is_updated) refine_if_due(slot.method);

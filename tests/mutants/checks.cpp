@@ -19,6 +19,7 @@ struct Check {
 };
 
 constexpr Check kChecks[] = {
+    {"fresh-numbers", check_fresh_numbers},
     {"cube", check_cube},
     {"cube-next-event", check_cube_next_event},
     {"cube-guided", check_cube_guided},

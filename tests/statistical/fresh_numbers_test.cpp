@@ -1,5 +1,5 @@
 // Pictures of learners against closed forms, over many seeds, while their tables change: numbers that depend on what the tables were
-// trained by show as a bias, which grows with the samples (docs/notebook/2026-11-29-iterations.md).
+// trained by show as a bias, which grows with the samples (docs/notebook/2026-11-29-fresh-numbers.md).
 #include "tests/support/catch.hpp"
 #include "tests/support/scenes/image_scenes.h"
 #include "tests/support/scenes/rectangle_light.h"
