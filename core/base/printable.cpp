@@ -33,7 +33,8 @@ std::size_t character_length(std::string_view text) {
     const std::size_t length = length_by(lead);
     if (length > text.size()) return 0;
     const std::string_view tail = text.substr(std::min<std::size_t>(length, 1), length > 1 ? length - 1 : 0);
-    const bool continues = std::ranges::all_of(tail, [](char c) { return (static_cast<unsigned char>(c) & 0xc0) == 0x80; });
+    const bool continues =
+        std::ranges::all_of(tail, [](char c) { return (static_cast<unsigned char>(c) & 0xc0) == 0x80; });
     return continues && (length < 2 || may_follow(lead, byte_at(text, 1))) ? length : 0;
 }
 

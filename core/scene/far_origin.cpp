@@ -27,7 +27,7 @@ void tell_origin(SceneDescription& scene) {
     scene.warnings.push_back(fmt::format(
         "{}: far from the origin, moved by {} {} {} to keep its shape in floats; a scene file's points are in "
         "coordinates of the mesh file, those of --eye, --target and camera files in moved ones",
-        scene.source.string(), -scene.origin.x, -scene.origin.y, -scene.origin.z));
+        scene.source.string(), 0.0 - scene.origin.x, 0.0 - scene.origin.y, 0.0 - scene.origin.z));
 }
 
 }  // namespace pl

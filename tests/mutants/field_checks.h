@@ -29,7 +29,8 @@ inline Decision check_fresh_numbers() {
         square.add(before * before);
     }
     const double z = product.mean() / product.standard_error();
-    const std::string reason = "correlation " + std::to_string(product.mean() / square.mean()) + ", Z " + std::to_string(z);
+    const std::string reason =
+        "correlation " + std::to_string(product.mean() / square.mean()) + ", Z " + std::to_string(z);
     if (!(std::fabs(z) < kZAlpha)) return {Verdict::Fail, reason};
     return {product.standard_error() < resolving_error(0.06 * square.mean()) ? Verdict::Pass : Verdict::Inconclusive,
             reason};

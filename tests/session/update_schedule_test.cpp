@@ -61,7 +61,8 @@ TEST_CASE("Tables are updated after 1, 2, 3, 4, 6, 8, 12, ... passes: twice whil
     CHECK(is_updated_after(0xc0000000u));
 }
 
-TEST_CASE("With enough samples a quarter of the passes train, at most sixteen together, the last ones before each update") {
+TEST_CASE(
+    "With enough samples a quarter of the passes train, at most sixteen together, the last ones before each update") {
     std::uint32_t training = 0, changes = 0;
     for (std::uint32_t pass = 0; pass < 4096; ++pass) {
         INFO("pass " << pass);

@@ -5,7 +5,8 @@
 using namespace pl;
 
 TEST_CASE("Text of any language stays as it is") {
-    for (const char* text : {"", "a b\n\tc", "\xC3\xA9\xC2\xA0", "\xE2\x82\xAC \xED\x9F\xBF \xEE\x80\x80", "\xF0\x9F\x98\x80\xF4\x8F\xBF\xBF"})
+    for (const char* text : {"", "a b\n\tc", "\xC3\xA9\xC2\xA0", "\xE2\x82\xAC \xED\x9F\xBF \xEE\x80\x80",
+                             "\xF0\x9F\x98\x80\xF4\x8F\xBF\xBF"})
         CHECK(printable(text) == text);
 }
 
@@ -15,8 +16,10 @@ TEST_CASE("What a terminal would obey is replaced") {
     CHECK(printable("a\rb\x7f") == "a" + r + "b" + r);
     CHECK(printable(std::string_view("\0", 1)) == r);
     // The control sequence introducer beyond ASCII, and as a byte alone.
-    CHECK(printable("\xC2\x9B" "31m") == r + "31m");
-    CHECK(printable("\x9B" "31m") == r + "31m");
+    CHECK(printable("\xC2\x9B"
+                    "31m") == r + "31m");
+    CHECK(printable("\x9B"
+                    "31m") == r + "31m");
 }
 
 TEST_CASE("Bytes that are no UTF-8 are replaced one by one") {
