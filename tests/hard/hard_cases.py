@@ -12,7 +12,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 CATALOGUE = ROOT / "tests/hard/catalogue.txt"
 TABLE = ROOT / "docs/hard-cases.md"
 # Every case that has to be there.
-LAST = {"G": 17, "O": 10, "P": 19, "Q": 21, "K": 10, "L": 17, "M": 17, "C": 10, "A": 14, "F": 24, "X": 13, "N": 6, "R": 22}
+LAST = {"G": 17, "O": 13, "P": 19, "Q": 21, "K": 10, "L": 17, "M": 17, "C": 10, "A": 14, "F": 24, "X": 13, "N": 6, "R": 23}
 TIERS = ["push", "merge", "nightly"]
 
 HEAD = """# Hard cases

@@ -217,3 +217,50 @@ TEST_CASE("Pending training samples are saved and loaded with the tables") {
     render_passes(second, 2);
     CHECK(same_state(state_of(first), state_of(second)));
 }
+
+TEST_CASE("A run goes on in the sequences of the last one like it, unless guiding has changed or halves would be "
+          "exchanged") {
+    const PassRun spread{.first_pass = 0, .first_sample = 10, .sequences = {20, 10}};
+    const PassRun training{.first_pass = 4, .first_sample = 14, .sequences = {28, 14}, .trains = true};
+    const PassRun next{.first_pass = 6, .first_sample = 16};
+    CHECK(next.sequences_behind(std::vector{spread, training}) == VertexSequences{20, 12});  // four members are drawn
+    const PassRun odd{.first_pass = 5, .first_sample = 15};
+    CHECK(odd.sequences_behind(std::vector{spread, training}) == odd.own_sequences());
+    const PassRun unguided{.first_pass = 4, .first_sample = 14, .sequences = {28, 14}, .is_guided = false};
+    CHECK(next.sequences_behind(std::vector{spread, unguided}) == next.own_sequences());
+    CHECK(next.sequences_behind({}) == next.own_sequences());
+}
+
+TEST_CASE("Passes that train draw from new sequences after every update, and those of a frozen field from one") {
+    const SceneDescription scene = shipped_scene("door");
+    Session session = make_session(scene, small_settings(scene, kLearning), 2);
+    const auto run_of = [&](std::uint32_t pass) { return session.pass_replay(slot_of(session)).run_of(pass); };
+    render_passes(session, 13);
+    for (std::uint32_t pass = 0, first = 0; pass < 13; ++pass) {
+        if (is_updated_after(pass)) first = pass;
+        INFO("pass " << pass);
+        CHECK(run_of(pass) ==
+              PassRun{.first_pass = first, .first_sample = first, .sequences = {2 * first, first}, .trains = true});
+    }
+    session.apply(EditLearning{MethodId::Reinforcement, LearningControl::Freeze});
+    render_passes(session, 7);
+    for (std::uint32_t pass = 13; pass < 20; ++pass)
+        CHECK(run_of(pass) == PassRun{.first_pass = 13, .first_sample = 13, .sequences = {26, 13}});
+
+    // A pass that trains, in between: its sample is not a member of the others' sequences, which exchange no halves.
+    session.apply(EditLearning{MethodId::Reinforcement, LearningControl::Step});
+    render_passes(session, 2);
+    CHECK(run_of(20).trains);
+    CHECK(run_of(20).sequences == VertexSequences{40, 20});
+    CHECK(run_of(21).sequences == VertexSequences{42, 21});
+}
+
+TEST_CASE("Methods that do not learn draw from one pair of sequences through all passes") {
+    const SceneDescription scene = shipped_scene("door");
+    for (const MethodId method : {MethodId::Default, MethodId::Precomputed}) {
+        Session session = make_session(scene, small_settings(scene, {method, false}), 2);
+        render_passes(session, 9);
+        for (const PassRun& run : session.pass_replay(slot_of(session)).runs)
+            CHECK(run.sequences == VertexSequences{});
+    }
+}
