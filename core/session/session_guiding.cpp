@@ -44,11 +44,11 @@ GuidingTerms Session::guiding_terms(FilmSlot slot) const {
             .field = state_of_field(slot.method)};
 }
 
-/// Decides about the passes that begin, up to the next update. Returns false if the trials before them were stopped: the next call
+/// Decides about the passes that begin, up to the next choice. Returns false if the trials before them were stopped: the next call
 /// resumes them.
 bool Session::choose_guiding(FilmSlot slot, const StopFlag* stop) {
     FilmProgress& state = films_[slot];
-    if (state.next_pixel > 0 || !chooses_guiding(slot) || !is_updated_after(state.passes)) return true;
+    if (state.next_pixel > 0 || !chooses_guiding(slot) || !is_chosen_after(state.passes)) return true;
     const bool knows = info_of(slot.method).learns && (field(slot.method).passes > 0 || is_frozen(slot.method));
     if (knows && state.guiding.is_warming_up()) state.guiding.trust_field();
     if (!warms_up(slot)) state.guiding.begin_guided();
@@ -140,7 +140,7 @@ void Session::measure_guiding(FilmSlot slot) {
     if (!chooses_guiding(slot)) return;
     FilmProgress& state = films_[slot];
     if (!state.is_guided) ++state.unguided_passes;
-    if (is_updated_after(state.passes + 1))
+    if (is_chosen_after(state.passes + 1))
         state.guiding.measure_pass(state.passes, state.measured, guiding_terms(slot));
 }
 

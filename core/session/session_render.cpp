@@ -128,8 +128,8 @@ std::uint32_t Session::equal_passes(FilmSlot slot, std::uint32_t most) const {
     if (!learns && !chooses_guiding(slot)) return most;
     const std::uint64_t left = learns ? settings_.learn_passes - trained_passes(slot.method) : most;
     const auto is_equal = [&](std::uint32_t pass) {
-        if (!learns) return !is_updated_after(pass);
-        return !is_update_due(slot, pass) && is_trained_by_pass(slot, pass) == state.trains;
+        if (chooses_guiding(slot) && is_chosen_after(pass)) return false;
+        return !learns || (!is_update_due(slot, pass) && is_trained_by_pass(slot, pass) == state.trains);
     };
     std::uint32_t passes = 1;
     while (passes < most && passes < left && is_equal(state.passes + passes)) ++passes;

@@ -57,7 +57,7 @@ TEST_CASE("names in files do not speak to the terminal") {
 
 TEST_CASE("2: pictures and volumes that do not fit the memory are refused with both numbers of bytes") {
     const TempDir folder;
-    const std::string limited = "ulimit -v 2000000; exec pathlight render cornell -t 1 -o " + (folder / "x.pfm");
+    const std::string limited = "ulimit -v 2000000; pathlight render cornell -t 1 -o " + (folder / "x.pfm");
     const ProgramResult picture = run_shell(limited + " --size 16384x16384");
     CAPTURE(picture.err);
     CHECK(picture.code == 2);
@@ -83,7 +83,7 @@ TEST_CASE("3: scenes whose files together do not fit the memory are refused, not
     }
     write_all(folder / "t.mtl", materials);
     const auto info = [&](const std::string& scene) {
-        return run_shell("ulimit -v 1200000; exec pathlight info " + (folder / scene));
+        return run_shell("ulimit -v 1200000; pathlight info " + (folder / scene));
     };
     const ProgramResult all = info("t4.obj");
     CAPTURE(all.err);
