@@ -184,8 +184,17 @@ bool stays_inside(const fs::path& folder, const fs::path& path) {
         return false;
     }
     const fs::path real = fs::weakly_canonical(real_folder / path, failed);
-    return !failed &&
-           std::mismatch(real_folder.begin(), real_folder.end(), real.begin(), real.end()).first == real_folder.end();
+    if (failed ||
+        std::mismatch(real_folder.begin(), real_folder.end(), real.begin(), real.end()).first != real_folder.end()) {
+        return false;
+    }
+    // A link that leads nowhere is left in the path: a file may come to be where it leads.
+    for (fs::path part = real; part != real_folder; part = part.parent_path()) {
+        if (fs::is_symlink(fs::symlink_status(part, failed))) {
+            return false;
+        }
+    }
+    return true;
 }
 
 }  // namespace pl
