@@ -151,7 +151,7 @@ SceneDescription load_scene(const std::string& name_or_path, const fs::path& ass
     }
     copy_emitting_meshes(scene);
     validate_scene(scene);
-    move_into_float_range(scene);
+    if (move_into_float_range(scene)) validate_scene(scene);
     warn_of_float_steps(scene);
     warn_of_missing_uvs(scene);
     const glm::vec3 up = usable_up(scene.camera);

@@ -144,7 +144,7 @@ std::string small_surfaces_text(const SceneDescription& scene) {
 
 }  // namespace
 
-void move_into_float_range(SceneDescription& scene) {
+bool move_into_float_range(SceneDescription& scene) {
     const Bounds bounds = bounds_of(scene);
     const glm::vec3 origin(far_origin(glm::dvec3(bounds.low), glm::dvec3(bounds.high)));
     if (origin != glm::vec3(0.0f)) {
@@ -155,12 +155,13 @@ void move_into_float_range(SceneDescription& scene) {
     }
     const float size = std::max(size_of(bounds.low - origin), size_of(bounds.high - origin));
     const int exponent = size > 0.0f ? std::ilogb(size) : 0;
-    if (exponent <= kLargestExponent && exponent >= kSmallestExponent) return;
+    if (exponent <= kLargestExponent && exponent >= kSmallestExponent) return origin != glm::vec3(0.0f);
     scale_lengths(scene, std::ldexp(1.0f, -exponent));
     scene.warnings.push_back(fmt::format(
         "{}: up to {} from the origin, of which floats hold no fourth power: all lengths times 2^{}, also those of "
         "--eye, --target and camera files",
         scene.source.string(), size, -exponent));
+    return true;
 }
 
 void warn_of_float_steps(SceneDescription& scene) {

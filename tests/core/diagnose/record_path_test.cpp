@@ -51,6 +51,7 @@ std::vector<Vec3f> render_alone(Session& session) {
     const std::uint32_t pass = session.passes(slot);
     PathSettings path = path_settings(settings, slot.method);
     if (info_of(slot.method).learns) path = at_pass(path, pass);
+    path.sequences = session.pass_replay(slot).run_of(pass).sequences;
     RenderBackend& backend = session.backend_access();
     backend.reset_film(slot, settings.width, settings.height);
     backend.run_pass({.slot = slot,
