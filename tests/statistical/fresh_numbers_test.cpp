@@ -111,15 +111,25 @@ void check(const KnownScene& known, const Learner& learner, const Effort& effort
 
 }  // namespace
 
+bool has_table_or_lobes(const Learner& learner) {
+    return learner.representation != Representation::Neural && learner.representation != Representation::NeuralVertex;
+}
+
 /// 0.02 % are five standard errors.
 constexpr double kNightly = 0.0002 / 5.0 * (kZAlpha + kZBeta);
 
-// Seeds 1 to 64, 64 x 64 pixels, alpha 1e-6 per decision; resolves 0.1 %. An SD-tree was off by 0.2 % after 128 passes while its numbers
-// went on through updates.
+/// Passes by which 64 pictures of 64 x 64 pixels resolve 0.1 % under a patch.
+std::uint32_t passes_for(const Learner& learner) {
+    if (learner.next_event) return 48;
+    return learner.representation == Representation::SdTree ? 288 : 96;
+}
+
+// Seeds 1 to 64, alpha 1e-6 per decision. An SD-tree was off by 0.3 % after 256 passes while its numbers went on through updates. The
+// networks, which are slower, are in the nightly tier.
 TEST_CASE("Pictures of learners under a bright patch have no bias of 0.1 % while tables change") {
     const KnownScene patch = plane_under_patch();
     for (const Learner& learner : kLearners)
-        check(patch, learner, {64, learner.representation == Representation::SdTree ? 128u : 48u, 64, 0.001});
+        if (has_table_or_lobes(learner)) check(patch, learner, {64, passes_for(learner), 64, 0.001});
 }
 TEST_CASE("Pictures of learners under a bright patch have no bias of 0.02 % while tables change", "[nightly]") {
     const KnownScene patch = plane_under_patch();
