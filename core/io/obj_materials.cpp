@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "core/base/memory.h"
 #include "core/io/line_reader.h"
 #include "core/io/mtl.h"
 #include "core/io/obj_names.h"
@@ -50,6 +51,8 @@ std::vector<std::string> load_libraries(SceneDescription& scene, const fs::path&
             try {
                 const std::vector<UvScale> of_file = load_mtl(file.path, scene, map_kd);
                 uvs.insert(uvs.end(), of_file.begin(), of_file.end());
+            } catch (const MemoryError&) {
+                throw;
             } catch (const Error& error) {
                 if (error.kind() != ErrorKind::Input) throw;
                 missing.emplace_back(error.what());
