@@ -24,7 +24,7 @@ ARRAYS_OF_FIELD = 25
 ARRAYS_OF_CLUSTERS = 3  # of them, empty without clusters of lights
 BYTES_OF_SHAPE = 28
 FEWEST_PATHS_BEFORE_UPDATE = 1024
-MOST_PASSES_WITHOUT_UPDATE = 16
+MOST_TRAINING_PASSES = 16
 ENOUGH_SAMPLES_PER_VOLUME = 16384
 TRAINING_INTERVAL = 4
 PIXELS_OF_SHARE = 1 << 16
@@ -34,10 +34,22 @@ LATENCIES_OF_LARGE = 3
 FACTOR_OF_SAMPLES = 8
 
 
+def update_interval(passes):
+    """core/session/update_schedule.h"""
+    return max((1 << passes.bit_length()) // 4, 1)
+
+
 def is_updated_after(passes):
     """core/session/update_schedule.h"""
-    floor = 1 << (passes.bit_length() - 1)
-    return passes % min(max(floor // 8, 1), MOST_PASSES_WITHOUT_UPDATE) == 0
+    return passes % update_interval(passes) == 0
+
+
+def is_trained_by(number, has_enough):
+    """core/session/update_schedule.h"""
+    interval = update_interval(number)
+    if not has_enough or interval < 2 * TRAINING_INTERVAL:
+        return True
+    return number % interval >= interval - min(interval // TRAINING_INTERVAL, MOST_TRAINING_PASSES)
 
 
 def ends_of_parts(pixels, volumes):
@@ -114,12 +126,12 @@ class Run:
         self.learn = stats["seconds"]["learn"] * len(self.updates) / max(measured, 1)
 
     def updated_passes(self, pixels, passes):
-        """Numbers of the passes that an update follows. A field with enough training samples is trained by one pass in four."""
+        """Numbers of the passes that an update follows. A field with enough training samples is trained by few passes."""
         updated = []
         records = 0.0
         for done in range(1, passes + 1) if self.volumes else []:
             has_enough = records >= ENOUGH_SAMPLES_PER_VOLUME * self.volumes
-            if has_enough and done > MOST_PASSES_WITHOUT_UPDATE and done % TRAINING_INTERVAL:
+            if not is_trained_by(done - 1, has_enough):
                 continue
             records += self.records_per_path * pixels
             if is_updated_after(done):
