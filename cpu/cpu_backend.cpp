@@ -28,15 +28,12 @@
 namespace pl {
 namespace {
 
-/// The kernels of a method for the representation of its field.
-const PassKernels<PicturePass>& kernels_for(const PassRequest& request, const AnyFieldView& field) {
-    const PassKernels<PicturePass>* kernels = nullptr;
-    with_kernel_of(
-        sampled_representation(field), request.kernel_method(), request.learning, request.path.next_event != 0,
-        [&]<int kEntry>() { kernels = &picture_kernels<kEntry>(); },
-        [&]<int kEntry>() { kernels = &host_picture_kernels<kEntry>(); });
-    if (kernels == nullptr) throw Error(ErrorKind::Runtime, "CPU back end: this method has no kernels");
-    return *kernels;
+/// The kernel of a pass, for the representation of its field.
+PictureKernel kernel_for(const PassRequest& request, const AnyFieldView& field) {
+    PictureKernel kernel = nullptr;
+    with_kernel_of(sampled_representation(field), request.method(), request.learning, request.trains,
+                   [&]<int kEntry>() { kernel = picture_kernel<kEntry>(request.features); });
+    return kernel;
 }
 
 /// The field of one method.
@@ -114,17 +111,15 @@ public:
         if (request.slot.view != View::Beauty) return run_view(setup, request);
         const MethodId method = request.method();
         const AnyFieldView field = info_of(method).uses_field ? learned_field(method) : AnyFieldView{};
-        PassCounters counters = launch(kernels_for(request, field), request.features,
-                                       PicturePass{.setup = setup,
-                                                   .tracer = *tracer_,
-                                                   .field = field,
-                                                   .mixture = request.mixture,
-                                                   .learning = request.learning,
-                                                   .camera = request.camera,
-                                                   .sample = request.sample,
-                                                   .film = films_.view(request.slot, request.weights),
-                                                   .use = request.use,
-                                                   .subset = request.subset});
+        PassCounters counters = kernel_for(request, field)({.setup = setup,
+                                                            .tracer = *tracer_,
+                                                            .field = field,
+                                                            .settings = request.method_settings(),
+                                                            .camera = request.camera,
+                                                            .sample = request.sample,
+                                                            .film = films_.view(request.slot, request.weights),
+                                                            .use = request.use,
+                                                            .subset = request.subset});
         if (request.use != SampleUse::Trial)
             counters += refine_emission_of(request, static_cast<std::uint32_t>(counters.paths));
         return counters;

@@ -1,10 +1,10 @@
-// CPU kernels: arguments and dispatch tables. picture_kernels.inc is compiled once per entry of MethodList, so that
-// the kernels of all methods build in parallel.
+// CPU kernels: arguments and dispatch tables. picture_kernels.inc is compiled once per set of effects: the methods share what depends on
+// the set alone, and the sets build in parallel.
 #pragma once
 
 #include "core/base/kernel_row.h"
 #include "core/fields/field_model.h"
-#include "core/kernel/methods/host_method_list.h"
+#include "core/kernel/methods/method_list.h"
 #include "cpu/batch_tracer.h"
 #include "cpu/path_work.h"
 #include "cpu/run_paths.h"
@@ -16,8 +16,7 @@ struct PicturePass {
     PassSetup setup;
     const BatchTracer& tracer;
     AnyFieldView field;
-    MixtureSettings mixture{};
-    LearningSettings learning{};
+    MethodSettings settings{};
     Camera camera;
     std::uint32_t sample = 0;
     FilmView film;
@@ -37,12 +36,12 @@ struct ProbePass {
 template <class Pass>
 using PassKernels = KernelRow<PassCounters (*)(const Pass&)>;
 
-/// Picture kernels of an entry of MethodList.
-template <int kEntry>
-const PassKernels<PicturePass>& picture_kernels();
-/// Picture kernels of an entry of HostMethodList.
-template <int kEntry>
-const PassKernels<PicturePass>& host_picture_kernels();
+using PictureKernel = PassCounters (*)(const PicturePass&);
+/// The picture kernels of a set of effects: [entry of MethodList]. Null where the set is not in the entry's range.
+using PictureKernels = std::array<PictureKernel, MethodList::kCount>;
+/// Those of kCompiledSets[kSet].
+template <int kSet>
+const PictureKernels& picture_kernels();
 extern const PassKernels<ProbePass> kProbeKernels;
 
 /// Maps a method to the type that run_paths() uses: methods guided by tables get their lookups ahead.
@@ -58,15 +57,31 @@ struct RunMethod<M> {
 template <FeatureSet F, Method M>
 PassCounters run_picture_pass(const PicturePass& pass) {
     typename RunMethod<M>::Type method;
-    configure_method(method, pass.field, pass.mixture, pass.learning);
+    configure_method(method, pass.field, pass.settings);
     const PictureWork<F, decltype(method)> work{pass.camera, pass.sample, pass.film, pass.use, pass.subset};
     return run_paths<F>(pass.setup, pass.tracer, method, work);
 }
 
-template <Method M>
-constexpr PassKernels<PicturePass> make_picture_kernels() {
-    return make_kernel_row<PassCounters (*)(const PicturePass&), M::kKernelRange>(
-        []<FeatureSet F>() { return run_picture_pass<F, M>; });
+template <int kSet>
+constexpr PictureKernels make_picture_kernels() {
+    PictureKernels kernels{};
+    any_method_kernel([&]<int kEntry>() {
+        using Kernel = TypeAt<kEntry, MethodList>;
+        if constexpr (is_compiled(kSet, Kernel::kRange))
+            kernels[kEntry] = run_picture_pass<kCompiledSets[kSet], typename Kernel::Integrator>;
+        return false;
+    });
+    return kernels;
+}
+
+/// The picture kernel of an entry for a pass that needs these effects.
+template <int kEntry>
+PictureKernel picture_kernel(FeatureSet needed) {
+    static const auto kSets = []<int... kSet>(std::integer_sequence<int, kSet...>) {
+        return std::array{picture_kernels<kSet>()[kEntry]...};
+    }
+    (std::make_integer_sequence<int, kCompiledSetCount>{});
+    return kSets[covering_set(needed, TypeAt<kEntry, MethodList>::kRange)];
 }
 
 /// Runs the kernel for the smallest compiled set of features that covers `needed`.

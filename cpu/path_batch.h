@@ -13,8 +13,8 @@
 namespace pl {
 
 /// The kinds of paths of a batch, with the steps from their hits to their next rays and their shadow rays: in SIMD lanes for the sets of
-/// effects of kLaneFeatures, else with a PathState of each path.
-template <FeatureSet F, Method M, bool IsInLanes = kLaneFeatures.covers(F)>
+/// effects of kPlainFeatures, else with a PathState of each path.
+template <FeatureSet F, Method M, bool IsInLanes = kPlainFeatures.covers(F)>
 struct PathKind {
     using Paths = LanePaths<F, M>;
     using Vertices = LaneVertices<F, M>;

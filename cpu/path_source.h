@@ -11,10 +11,6 @@ namespace pl {
 /// Paths per claim. A thread finishes every path that it claims.
 inline constexpr std::uint32_t kPathChunk = 256;
 
-/// Sets of features whose paths stay in SIMD lanes, see path_batch.h; camera rays are made there, too.
-inline constexpr FeatureSet kLaneFeatures =
-    features(Feature::SmoothNormals, Feature::Environment, Feature::NextEventEstimation);
-
 /// The start of a path.
 struct PathStart {
     std::uint32_t number = 0;

@@ -24,13 +24,13 @@ struct PictureWork {
                 .purpose = Purpose::Pixel,
                 .sample = sequence_of(sample),
                 .subset = subset,
-                .pinhole = kLaneFeatures.covers(F) ? &camera : nullptr,
+                .pinhole = kPlainFeatures.covers(F) ? &camera : nullptr,
                 .grid = grid()};
     }
     PathState<F, M> begin(const PathStart& start) const {
         const std::uint32_t pixel = subset.pixel(start.number);
         prefetch(pixel);  // films exceed the cache
-        if constexpr (kLaneFeatures.covers(F))
+        if constexpr (kPlainFeatures.covers(F))
             return begin_path<F, M>(Ray{.origin = camera.eye, .direction = start.direction}, grid(), pixel);
         else
             return begin_path<F, M>(camera, grid(), pixel, start.u);

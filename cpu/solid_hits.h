@@ -8,7 +8,8 @@
 
 namespace pl {
 
-/// Hits are bit-identical to closest_solid_hit() of each ray. Allocates memory only if the scene has holes.
+/// Hits are bit-identical to closest_solid_hit() of each ray. Allocates memory only if the scene has holes. Its functions stay apart from
+/// the kernels: they are the same for all methods, and called once for a batch.
 template <FeatureSet F, BatchIntersector I>
 class SolidHits {
 public:
@@ -16,14 +17,14 @@ public:
         : scene_(scene), intersector_(intersector), rest_(wanted(scene) ? capacity : 0),
           waiting_(wanted(scene) ? capacity : 0) {}
 
-    void find_closest(RayBatch& batch, std::uint32_t count) {
+    [[gnu::noinline]] void find_closest(RayBatch& batch, std::uint32_t count) {
         intersector_.find_closest(batch, count);
         if constexpr (F.has(Feature::CutOuts)) {
             if (wanted(scene_)) pass_holes(batch, count);
         }
     }
     /// Marks the rays that a surface outside of holes occludes.
-    void find_occluded(RayBatch& batch, std::uint32_t count) {
+    [[gnu::noinline]] void find_occluded(RayBatch& batch, std::uint32_t count) {
         if (!wanted(scene_)) return intersector_.find_occluded(batch, count);
         find_closest(batch, count);
         for (std::uint32_t i = 0; i < count; ++i) batch.set_occluded(i, batch.hit(i).found());
@@ -38,7 +39,7 @@ private:
         float passed;
     };
 
-    void pass_holes(RayBatch& batch, std::uint32_t count) {
+    [[gnu::noinline]] void pass_holes(RayBatch& batch, std::uint32_t count) {
         std::uint32_t waiting = 0;
         for (std::uint32_t i = 0; i < count; ++i)
             if (meets_hole<F>(scene_, batch.ray(i), batch.hit(i)))

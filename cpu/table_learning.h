@@ -57,6 +57,7 @@ public:
     /// Opens training samples of the paths in `scattered`.
     void scattered(const DirectionGroup* directions, std::uint64_t scattered) {
         if constexpr (!std::is_empty_v<typename M::Sample>) {
+            if (!paths_.method.trains) return;
             BlockBits lanes;
             lanes.set(scattered);
             paths_.kernels.open_samples(rows_, directions, lanes);

@@ -112,15 +112,16 @@ private:
 void CudaBackend::launch_picture(const PassRequest& request, const PixelPaths& pixels) {
     const MethodId id = request.method();
     const AnyFieldView field = info_of(id).uses_field ? fields_.view(id) : AnyFieldView{};
-    const auto launch_kernel = [&]<int kEntry>() {
-        IntegratorAt<kEntry> method;
-        configure_method(method, field, request.mixture, request.learning);
-        launch_paths(picture_kernels<kEntry>()[covering_set(request.features)], request.path, to_kernel(method),
-                     pixels);
-    };
-    // Representations of the host alone are refused when their field is uploaded.
-    with_kernel_of(sampled_representation(field), request.kernel_method(), request.learning,
-                   request.path.next_event != 0, launch_kernel, []<int>() {});
+    with_kernel_of(sampled_representation(field), request.method(), request.learning, request.trains,
+                   [&]<int kEntry>() {
+                       // Representations of the host alone are refused when their field is uploaded.
+                       if constexpr (!TypeAt<kEntry, MethodList>::kIsForHostAlone) {
+                           IntegratorAt<kEntry> method;
+                           configure_method(method, field, request.method_settings());
+                           launch_paths(picture_kernels<kEntry>()[covering_set(request.features)], request.path,
+                                        to_kernel(method), pixels);
+                       }
+                   });
 }
 
 void CudaBackend::launch_view(const PassRequest& request, const ViewContext& context, PathRange range) {

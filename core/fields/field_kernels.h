@@ -1,8 +1,11 @@
-// Which entry of the lists of methods serves a representation: asked by back ends, and by those who tell which kernel runs.
+// Which entry of the list of methods serves a representation: asked by back ends, and by those who tell which kernel runs.
 #pragma once
 
+#include <type_traits>
+
+#include "core/base/error.h"
 #include "core/fields/field_model.h"
-#include "core/kernel/methods/host_method_list.h"
+#include "core/kernel/methods/method_list.h"
 
 namespace pl {
 
@@ -14,21 +17,25 @@ inline Representation sampled_representation(const AnyFieldView& field) {
     return Representation::Table;
 }
 
-/// Calls visit.operator()<kEntry>() for the entry of MethodList, or visit_host.operator()<kEntry>() for that of HostMethodList, that serves
-/// a method with a representation and settings. Returns whether there is one.
-template <class Visit, class VisitHost>
-bool with_kernel_of(Representation representation, MethodId method, const LearningSettings& learning,
-                    bool samples_lights, Visit&& visit, VisitHost&& visit_host) {
-    // Methods without a field are in MethodList alone, whatever the representation.
-    if (representation == Representation::SdTree &&
-        with_host_kernel<SdTreeField>(method, learning, samples_lights, visit_host))
-        return true;
-    if (representation == Representation::Lobes &&
-        with_host_kernel<LobeField>(method, learning, samples_lights, visit_host))
-        return true;
-    if (representation == Representation::NeuralVertex)
-        return with_method_kernel<NeuralVertexField>(method, learning, samples_lights, visit);
-    return with_method_kernel(method, learning, samples_lights, visit);
+/// Calls visit.operator()<kEntry>() for the entry of MethodList that serves passes of a method with a representation, see
+/// with_method_kernel(). Throws Error(Runtime) if there is none: see has_kernels_of().
+template <class Visit>
+void with_kernel_of(Representation representation, MethodId method, const LearningSettings& learning, bool trains,
+                    Visit&& visit) {
+    const auto is_found = [&]<class F>(std::type_identity<F>) {
+        return with_method_kernel<F>(method, learning, trains, visit);
+    };
+    const auto any_of = [&] {
+        switch (representation) {
+        case Representation::SdTree: return is_found(std::type_identity<SdTreeField>{});
+        case Representation::Lobes: return is_found(std::type_identity<LobeField>{});
+        case Representation::NeuralVertex: return is_found(std::type_identity<NeuralVertexField>{});
+        case Representation::Table:
+        case Representation::Neural: break;
+        }
+        return is_found(std::type_identity<TableField>{});
+    };
+    if (!any_of()) throw Error(ErrorKind::Runtime, "this method has no kernels for these settings and this field");
 }
 
 }  // namespace pl

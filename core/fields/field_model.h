@@ -106,16 +106,22 @@ decltype(auto) visit_field(Any& field, Visit&& visit) {
     return visit(std::get<TableField>(field));
 }
 
-/// Sets the members of a method that are constant during a pass: field, mixture and learning settings, as far as it
-/// has them.
+/// What a method is told that is constant during a pass.
+struct MethodSettings {
+    MixtureSettings mixture{};
+    LearningSettings learning{};
+    bool trains = true;  ///< whether a method that learns makes training samples
+};
+
+/// Sets the members of a method that are constant during a pass, as far as it has them.
 template <Method M>
-void configure_method(M& method, const AnyFieldView& field, const MixtureSettings& mixture,
-                      const LearningSettings& learning) {
+void configure_method(M& method, const AnyFieldView& field, const MethodSettings& settings) {
     if constexpr (requires { typename M::Field; }) {
         method.field = std::get<typename M::Field>(field);
-        method.mixture = mixture;
+        method.mixture = settings.mixture;
+        method.trains = settings.trains;
     }
-    if constexpr (requires { method.learning; }) method.learning = learning;
+    if constexpr (requires { method.learning; }) method.learning = settings.learning;
 }
 
 /// The tables of a field that is represented by them. Throws std::bad_variant_access for others.

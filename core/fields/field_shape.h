@@ -4,6 +4,7 @@
 #include "core/kernel/guiding/direction_cells.h"
 #include "core/kernel/guiding/table_update.h"
 #include "core/kernel/guiding/volume_lookup.h"
+#include "core/kernel/methods/learning_target.h"
 
 namespace pl {
 
@@ -22,6 +23,13 @@ inline constexpr Representation kLastRepresentation = Representation::NeuralVert
 /// back ends have kernels for it.
 constexpr bool has_tables(Representation representation) {
     return representation != Representation::SdTree && representation != Representation::Lobes;
+}
+
+/// Whether there are kernels that train a representation by a target: for other targets than that of Expected Sarsa only where
+/// directions are sampled from tables.
+constexpr bool has_target(Representation representation, LearningTarget target) {
+    return target == LearningTarget::ExpectedSarsa || representation == Representation::Table ||
+           representation == Representation::Neural;
 }
 
 /// The training samples that an SD-tree is built from. Files store these numbers.

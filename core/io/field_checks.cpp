@@ -68,6 +68,9 @@ private:
         require(s.representation <= kLastRepresentation, "representation",
                 fmt::format("0 to {}", static_cast<std::uint32_t>(kLastRepresentation)),
                 static_cast<std::uint32_t>(s.representation));
+        require(has_target(s.representation, s.learning.target), "learning target",
+                "0, that of Expected Sarsa, unless directions are sampled from tables",
+                static_cast<std::uint32_t>(s.learning.target));
         require(s.iterations <= Iterations::Doubling, "iterations", "0 or 1",
                 static_cast<std::uint32_t>(s.iterations));
         require((s.refine_share >= 0.0f && s.refine_share <= 1.0f) || s.refine_share == kRefineByRecords,

@@ -74,11 +74,7 @@ struct PassRequest {
 
     /// The method whose field guides the paths, if it has one.
     MethodId method() const { return is_guided ? slot.method : baseline_method(); }
-    /// The method whose kernel runs.
-    MethodId kernel_method() const {
-        const bool is_constant = is_guided && !trains && info_of(slot.method).learns;
-        return is_constant ? frozen_method() : method();
-    }
+    MethodSettings method_settings() const { return {mixture, learning, trains}; }
 };
 
 /// One stratified probe for every cell of every volume, or for a range of them, recorded into a method's field.

@@ -48,9 +48,6 @@ std::span<const ViewInfo> all_views() { return kViews; }
 
 const MethodInfo& info_of(MethodId id) { return kMethods[static_cast<std::size_t>(id)]; }
 MethodId baseline_method() { return std::ranges::find(kMethods, false, &MethodInfo::uses_field)->id; }
-MethodId frozen_method() {
-    return std::ranges::find_if(kMethods, [](const MethodInfo& info) { return info.uses_field && !info.learns; })->id;
-}
 MethodId learning_method() { return std::ranges::find(kMethods, true, &MethodInfo::learns)->id; }
 MethodId field_owner(MethodId method) { return info_of(method).uses_field ? method : learning_method(); }
 const ViewInfo& info_of(View id) { return kViews[static_cast<std::size_t>(id)]; }

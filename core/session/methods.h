@@ -24,8 +24,6 @@ std::span<const ViewInfo> all_views();
 const MethodInfo& info_of(MethodId id);
 /// The baseline: the method without a field, against which others are compared.
 MethodId baseline_method();
-/// The first method with a field that does not learn while it renders: its kernel serves the passes of others that do not train.
-MethodId frozen_method();
 /// The first method that learns while it renders.
 MethodId learning_method();
 /// The method whose field the views show: the method itself, or the learning method if it has no field.

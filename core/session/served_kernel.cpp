@@ -6,6 +6,7 @@
 #include "core/base/kernel_row.h"
 #include "core/fields/field_kernels.h"
 #include "core/scene/needed_effects.h"
+#include "core/session/learned_field.h"
 
 namespace pl {
 namespace {
@@ -13,10 +14,8 @@ namespace {
 KernelRange range_of(const RenderSettings& settings) {
     if (settings.view != View::Beauty) return kViewRange;
     KernelRange range = KernelRange::Full;
-    with_kernel_of(
-        settings.field.representation, settings.method, settings.field.learning, settings.next_event,
-        [&]<int kEntry>() { range = TypeAt<kEntry, MethodList>::Integrator::kKernelRange; },
-        [&]<int kEntry>() { range = TypeAt<kEntry, HostMethodList>::Integrator::kKernelRange; });
+    with_kernel_of(representation_of(settings.field, settings.method), settings.method, settings.field.learning, true,
+                   [&]<int kEntry>() { range = TypeAt<kEntry, MethodList>::kRange; });
     return range;
 }
 

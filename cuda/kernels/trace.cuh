@@ -135,9 +135,10 @@ __global__ void __launch_bounds__(trace_block<FeatureSet{kFeatureBits}, M>().thr
     add_up(*setup.counters, counters);
 }
 
-template <Method M>
-constexpr KernelRow<PictureKernel<M>> make_picture_kernels() {
-    return make_kernel_row<PictureKernel<M>, M::kKernelRange>(
+template <int kEntry>
+constexpr PictureKernels<kEntry> make_picture_kernels() {
+    using M = KernelMethodAt<kEntry>;
+    return make_kernel_row<PictureKernel<M>, TypeAt<kEntry, MethodList>::kRange>(
         []<FeatureSet F>() { return trace_paths<F.bits, M, PixelPaths>; });
 }
 

@@ -162,7 +162,7 @@ void check_method(MethodId method) {
         check_effects<FeatureSet{}, M>(closed, method, {FeatureSet{}, false, splits});
         check_effects<kLights, M>(closed, method, {kLights, true, splits});
         for (const bool next_event : {false, true})
-            check_effects<kLaneFeatures, M>(open, method, {kLaneFeatures, next_event, splits});
+            check_effects<kPlainFeatures, M>(open, method, {kPlainFeatures, next_event, splits});
     }
 }
 

@@ -24,7 +24,7 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
 # Entries of core/kernel/methods/method_list.h, in its order.
-entries=(default precomputed precomputed_network reinforcement sarsa monte_carlo network network_sarsa network_monte_carlo)
+entries=(default precomputed reinforcement sarsa monte_carlo network)
 
 # source NAME: the file of a kernel; pictures have one per entry
 source_of() {
@@ -57,16 +57,15 @@ compile() {
         2>"$work/$1.log" || { cat "$work/$1.log"; exit 1; }
 }
 case $mode in
-quick | machine) pictures=(default) learners=() networks=() others=(film update) ;;
+quick | machine) pictures=(default) learners=() others=(film update) ;;
 all | --write)
     pictures=(default precomputed reinforcement)
-    learners=(sarsa monte_carlo probe_kernels)
-    networks=(precomputed_network network network_sarsa network_monte_carlo)
+    learners=(sarsa monte_carlo probe_kernels network)
     others=(views film update)
     ;;
 *) echo "mode: expected quick, all, machine or --write, got '$mode'" >&2; exit 2 ;;
 esac
-paths=("${pictures[@]}" "${learners[@]}" "${networks[@]}")
+paths=("${pictures[@]}" "${learners[@]}")
 files=("${paths[@]}" "${others[@]}")
 disassembler=$(disassembler) || disassembler=
 if [[ $mode == machine && -z $disassembler ]]; then exit 77; fi
@@ -173,9 +172,10 @@ for file in "${files[@]}"; do
     expect "fused multiply-adds in $file" "$(grep 'fma\.' "$work/$file.ptx" | grep -vc 'fma\.rm\.f32' || true)" -eq 0
     expect "atomic sums of floats in $file" "$(grep -cE '(^|[[:space:]])(atom|red)[a-z0-9_.]*\.b?f(16|32|64)' "$work/$file.ptx" || true)" -eq 0
 done
-# Sets: 0 nothing, 4 light samples, 7 smooth normals and environment too, 63 lobes too, 262143 all. Philox' key schedule and its
-# first multiplier count the draws; doubles count the traversals; rounding down only images and maps need. Smooth
-# normals are recognized by their square roots: the rest of their code is less than the difference of two compilations.
+# Sets: 0 nothing, 4 light samples, 7 smooth normals and environment too, 1351 images and many lights too, 63 lobes instead, 131071 all
+# but instances, 262143 all. Philox' key schedule and its first multiplier count the draws; doubles count the traversals; rounding down
+# only images and maps need. Smooth normals are recognized by their square roots: the rest of their code is less than the difference of
+# two compilations.
 measure() {
     local file=$1 bits
     shift
@@ -190,11 +190,13 @@ measure() {
     done
 }
 for file in "${pictures[@]}"; do
-    measure "$file" 0 4 7 63 262143
+    measure "$file" 0 4 7 63 1351 131071 262143
     expect "$file: instructions without and with light samples" "${size[0]}" -lt "${size[4]}"
     expect "$file: roots without and with normals and environment" "${roots[4]}" -lt "${roots[7]}"
     expect "$file: instructions without and with lobes" "${size[7]}" -lt "${size[63]}"
-    expect "$file: instructions with some and all effects" "${size[63]}" -lt "${size[262143]}"
+    expect "$file: instructions with lobes and all effects but instances" "${size[63]}" -lt "${size[131071]}"
+    expect "$file: instructions with images and all effects but instances" "${size[1351]}" -lt "${size[131071]}"
+    expect "$file: instructions without and with instances" "${size[131071]}" -lt "${size[262143]}"
     expect "$file: random numbers without and with light samples" "${draws[0]}" -lt "${draws[4]}"
     expect "$file: random numbers for normals and environment" "${draws[4]}" -eq "${draws[7]}"
     expect "$file: random numbers without and with lobes" "${draws[7]}" -lt "${draws[63]}"
@@ -204,18 +206,15 @@ for file in "${pictures[@]}"; do
     expect "$file: roundings down without images" "${floors[63]}" -eq "${floors[0]}"
     expect "$file: roundings down with images" "${floors[262143]}" -gt "${floors[63]}"
 done
-for file in "${learners[@]}" "${networks[@]}"; do
-    measure "$file" 0 7 262143
-    expect "$file: instructions with none and some effects" "${size[0]}" -lt "${size[7]}"
+for file in "${learners[@]}"; do
+    measure "$file" 7 262143
     expect "$file: instructions with some and all effects" "${size[7]}" -lt "${size[262143]}"
-    expect "$file: double operations without and with shadow rays" "$((2 * doubles[0]))" -eq "${doubles[7]}"
-    expect "$file: roundings down without images" "${floors[7]}" -eq "${floors[0]}"
+    expect "$file: double operations for two rays" "${doubles[7]}" -le 36
+    expect "$file: roundings down without and with images" "${floors[7]}" -lt "${floors[262143]}"
 done
 for file in "${paths[@]}"; do
-    measure "$file" 0 7
-    for bits in 0 7; do
-        expect "$file: fused operations of box tests in set $bits" "${boxes[bits]}" -eq "$((2 * doubles[bits]))"
-    done
+    measure "$file" 7
+    expect "$file: fused operations of box tests" "${boxes[7]}" -eq "$((2 * doubles[7]))"
     expect "$file: exponentials and logarithms of the device" "$(grep -cE '(ex2|lg2)\.approx' "$work/$file.ptx" || true)" -eq 0
     # Planes of instances are made where rays meet them.
     expect "$file: double divisions and roots" "$(count "$file" 7 '(div|sqrt)[a-z.]*\.f64')" -eq 0
@@ -223,9 +222,9 @@ done
 
 # most_stack FILE PATTERN: of the kernels that trace paths with these sets of effects
 most_stack() { registers "$1" | awk -v sets="$2" '$2 == "trace_paths" && $3 ~ sets && $5 > most { most = $5 } END { print most + 0 }'; }
-for file in "${pictures[@]}" "${learners[@]}" "${networks[@]}"; do
+for file in "${paths[@]}"; do
     expect "$file: stack without lobes and images" "$(most_stack "$file" '^[047]$')" -le 512
-    expect "$file: stack without instances" "$(most_stack "$file" '^([047]|63)$')" -le 1024
+    expect "$file: stack without instances" "$(most_stack "$file" '^([047]|63|1351|131071)$')" -le 1024
     expect "$file: stack" "$(most_stack "$file" .)" -le 1792
 done
 

@@ -23,7 +23,7 @@ TEST_CASE("Kernels are named after method or view and effects") {
           "cpu/reinforcement/next-event-estimation");
     CHECK(served({.method = MethodId::Precomputed, .forced_effects = features(Feature::SmoothNormals)}).name ==
           "cpu/precomputed/smooth-normals+environment+next-event-estimation");
-    CHECK(served({.view = View::Depth}).name == "cpu/depth/base");
+    CHECK(served({.view = View::Depth}).name == "cpu/depth/smooth-normals+environment+next-event-estimation");
 }
 
 TEST_CASE("Kernels that exist for fewer sets are named after the one that runs") {
@@ -36,8 +36,15 @@ TEST_CASE("Kernels that exist for fewer sets are named after the one that runs")
     CHECK(served(settings).compiled == kLarge);
     settings = {.view = View::Direct, .forced_effects = features(Feature::Rough)};
     CHECK(served(settings).compiled == kLarge);
+    settings = {.method = MethodId::Reinforcement, .next_event = true};
+    settings.field.representation = Representation::SdTree;
+    CHECK(served(settings).compiled == kPlainFeatures);
     settings = {.method = MethodId::Default, .forced_effects = features(Feature::Rough)};
-    CHECK(served(settings).compiled == kCompiledSets[3]);
+    CHECK(served(settings).compiled == kPlainFeatures.with(kLobeFeatures));
+    settings.forced_effects = features(Feature::Textures, Feature::ManyLights);
+    CHECK_FALSE(served(settings).compiled.has_any(kLobeFeatures));
+    settings.forced_effects = features(Feature::Textures, Feature::Rough);
+    CHECK(served(settings).compiled == kLarge.without(Feature::Instances));
 }
 
 TEST_CASE("Needed and forced effects are both served") {

@@ -44,12 +44,12 @@ void draw_learning_targets(ViewerModel& model, FieldSettings settings) {
         choice_row("Learns from",
                    "The target of a training sample. Expected Sarsa: the expected reflected radiance at the next "
                    "vertex. Sarsa: the learned radiance of the next direction. Monte Carlo: the radiance of "
-                   "the rest of the path.",
+                   "the rest of the path. Only tables learn from the last two.",
                    &target, "Expected Sarsa\0Sarsa\0Monte Carlo\0");
     changed |= choice_row("Light",
                           "With light samples: learn all incident radiance, or only the part without light samples.",
                           &light, "All\0Indirect\0");
-    if (!changed) return;
+    if (!changed || !has_target(settings.representation, static_cast<LearningTarget>(target))) return;
     settings.rate = kRates[static_cast<std::size_t>(rate)];
     settings.learning = {static_cast<LearningTarget>(target), static_cast<LearnedLight>(light)};
     model.render().set_field(settings);
@@ -93,6 +93,8 @@ void draw_field(ViewerModel& model) {
             "peaks. All but the table on the CPU; precomputed maps are tables.",
             &representation, "Table\0SD-tree\0Lobes\0Neural\0Neural vertex\0")) {
         settings.representation = static_cast<Representation>(representation);
+        if (!has_target(settings.representation, settings.learning.target))
+            settings.learning.target = LearningTarget::ExpectedSarsa;
         model.render().set_field(settings);
     }
     int volumes = settings.volumes;

@@ -72,13 +72,20 @@ inline constexpr FeatureSet kEveryFeature = [] {
     return all;
 }();
 
-/// The compiled sets, smallest first; the last one holds every feature.
+/// Effects of Lambert reflectors under lights that need no image and no tree.
+inline constexpr FeatureSet kPlainFeatures =
+    features(Feature::SmoothNormals, Feature::Environment, Feature::NextEventEstimation);
+
+/// The compiled sets, each before its supersets; the last one holds every feature. Chosen by what scenes need, one group after the
+/// other: boxes, rooms of Lambert reflectors, such rooms with images or many lamps, metals and glass without images, files of other
+/// programs, and instances, which few of these have and whose second hierarchy costs registers.
 inline constexpr FeatureSet kCompiledSets[] = {
     features(),
     features(Feature::NextEventEstimation),
-    features(Feature::SmoothNormals, Feature::Environment, Feature::NextEventEstimation),
-    features(Feature::SmoothNormals, Feature::Environment, Feature::NextEventEstimation, Feature::Specular,
-             Feature::Rough, Feature::Plastic),
+    kPlainFeatures,
+    kPlainFeatures.with(features(Feature::Textures, Feature::EnvironmentMap, Feature::ManyLights)),
+    kPlainFeatures.with(kLobeFeatures),
+    kEveryFeature.without(Feature::Instances),
     kEveryFeature,
 };
 inline constexpr int kCompiledSetCount = static_cast<int>(sizeof(kCompiledSets) / sizeof(kCompiledSets[0]));
@@ -86,17 +93,23 @@ inline constexpr int kCompiledSetCount = static_cast<int>(sizeof(kCompiledSets) 
 /// Density of the compiled sets of a kernel: build time against unused branches.
 enum class KernelRange {
     Full,
-    Sparse,  ///< every second set, with the smallest and the largest: for rarely used kernels
+    Sparse,  ///< kPlainFeatures and every feature: for kernels that few use, or that take little of the time
 };
+constexpr bool is_in_range(FeatureSet compiled, KernelRange range) {
+    return range == KernelRange::Full || compiled == kPlainFeatures || compiled == kEveryFeature;
+}
 
-/// Index into kCompiledSets of the first (smallest) set of a range that covers `needed`.
+/// Index into kCompiledSets of the first set of a range that covers `needed`.
 constexpr int smallest_superset(FeatureSet needed, KernelRange range = KernelRange::Full) {
-    const int step = range == KernelRange::Sparse ? 2 : 1;
-    for (int i = 0; i < kCompiledSetCount; i += step)
-        if (kCompiledSets[i].covers(needed)) return i;
+    for (int i = 0; i < kCompiledSetCount; ++i)
+        if (is_in_range(kCompiledSets[i], range) && kCompiledSets[i].covers(needed)) return i;
     return kCompiledSetCount - 1;
 }
-static_assert(kCompiledSetCount % 2 == 1, "the largest set is in both ranges");
+
+/// Whether kernels of a range are compiled for the set of this number.
+constexpr bool is_compiled(int set, KernelRange range) {
+    return set < kCompiledSetCount && smallest_superset(kCompiledSets[set], range) == set;
+}
 
 static_assert(kCompiledSets[kCompiledSetCount - 1] == kEveryFeature);
 static_assert(smallest_superset(FeatureSet{}) == 0);

@@ -1,4 +1,4 @@
-// Differences between the C++ compiler and nvcc: PL_HD, PL_INLINE, PL_HD_INLINED, PL_HD_APART, PL_ASSERT, arithmetic for
+// Differences between the C++ compiler and nvcc: PL_HD, PL_INLINE, PL_HD_INLINED, PL_HD_APART, PL_HOST_APART, PL_ASSERT, arithmetic for
 // bounds, votes of a warp. Besides atomics.h the only file of core/kernel that tests compiler macros.
 #pragma once
 
@@ -11,16 +11,19 @@
 
 // PL_INLINE: inlined by both. PL_HD_INLINED: by nvcc alone, for functions that are called once: apart, they would take parameters by
 // addresses of unknown kind of memory, and the path's state would go to the stack. PL_HD_APART: by neither, for rare and long work,
-// which would take registers from all other.
+// which would take registers from all other. PL_HOST_APART: not by the C++ compiler, for long functions that several kernels share or
+// that one calls in several places: a call is cheap beside them, and they are compiled once, with all that they call inlined.
 #if defined(__CUDACC__)
 #define PL_HD __host__ __device__
 #define PL_INLINE __forceinline__ __host__ __device__
 #define PL_HD_INLINED __forceinline__ __host__ __device__
+#define PL_HOST_APART
 #define PL_HD_APART inline __noinline__ __host__ __device__
 #else
 #define PL_HD
 #define PL_INLINE inline __attribute__((always_inline))
 #define PL_HD_INLINED inline
+#define PL_HOST_APART __attribute__((noinline, flatten))
 #define PL_HD_APART inline __attribute__((noinline))
 #endif
 

@@ -11,7 +11,6 @@ namespace pl {
 /// Largest shift of a mean by parallax, in units of the distance to its light: beyond it lobes would turn around.
 inline constexpr float kMostShift = 0.9f;
 
-using Lobes = LobesOf<kMostLobes>;
 using LobeMixture = LobeMixtureOf<kMostLobes>;
 
 /// A unit direction in 30 bits, octahedral: to 1e-4.   [Cigolle et al. 2014, "A Survey of Efficient Representations for Independent
@@ -51,10 +50,10 @@ struct LobeView : PlacementView, LobeArrays<ConstSpan, Span> {
     PL_HD float weight_of(std::uint32_t volume, std::uint32_t i) const { return weight[volume * kMostLobes + i]; }
     /// The lobes of a volume as a point at `offset` from the site sees them: a mean turns towards the point that it has from the site, at
     /// the lobe's mean distance; its width stays. `offset` in units of the extent, in the frame of the normal.
-    PL_HD Lobes lobes_at(std::uint32_t volume, Vec3f offset) const {
+    PL_HD LobesOf<kMostLobes> lobes_at(std::uint32_t volume, Vec3f offset) const {
         constexpr float kNoLength = 1.0e-20f;
         const float distance = glm::length(offset);
-        Lobes lobes;
+        LobesOf<kMostLobes> lobes;
         lobes.used = lobe_count[volume];
         for (std::uint32_t i = 0; i < lobes.count(); ++i) {
             const VmfLobe lobe = lobe_of(volume, i);
@@ -70,7 +69,7 @@ struct LobeView : PlacementView, LobeArrays<ConstSpan, Span> {
 
     /// Density in proportion to incident radiance at a point, per steradian.
     PL_HD float radiance_pdf_sa(std::uint32_t volume, Vec3f offset, Vec3f wi) const {
-        const Lobes lobes = lobes_at(volume, offset);
+        const LobesOf<kMostLobes> lobes = lobes_at(volume, offset);
         float densities[kMostLobes] = {};
         for (std::uint32_t i = 0; i < lobes.count(); ++i) {
             const VmfLobe lobe = lobes.lobe(i);

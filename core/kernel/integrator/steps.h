@@ -217,7 +217,8 @@ PL_HD inline void connect_light(const M& method, const ShadowRequest<M>& shadow,
 
 /// Scatters the next waiting branch. It starts with an empty Memory, and without a light sample of its own.
 template <FeatureSet F, SplittingMethod M>
-PL_HD_INLINED PathStatus begin_branch(const PathContext<M>& context, PathState<F, M>& state, PathCounters& counters) {
+PL_HOST_APART PL_HD_INLINED PathStatus begin_branch(const PathContext<M>& context, PathState<F, M>& state,
+                                                    PathCounters& counters) {
     const Fork<KeptVertex<M>> fork = state.branches.begin();
     state.throughput = fork.throughput;
     state.survival = fork.survival;

@@ -16,9 +16,11 @@ struct FieldTrainer : MethodHooks {
 
     Field field;
     MixtureSettings mixture{};
+    bool trains = true;  ///< whether paths make training samples
 
     /// The training sample opened by a scattered direction; none if it trains no entry of the field.
     PL_HD OpenSample<Field> open_sample(const Vertex& vertex, const DirectionSample& direction) const {
+        if (!trains) return {};
         const typename Field::Entry entry = field.entry_of(vertex, direction);
         if (!entry.is_trained()) return {};
         return {entry, direction.bsdf_pdf_sa / direction.pdf_sa};

@@ -86,10 +86,11 @@ struct MethodHooks {
 
     static constexpr bool kSplitsPaths = false;   ///< whether estimate_contribution() is good enough to split by
     static constexpr bool kLearnsLights = false;  ///< whether learned_lights() chooses among many lights
-    static constexpr KernelRange kKernelRange = KernelRange::Full;  ///< sets of features it is compiled for
+
+    static constexpr bool kIsConstant = false;  ///< whether it is guided by a field that it does not train
 
     /// Whether the integrator serves these settings of its method.
-    static constexpr bool serves(const LearningSettings&, bool /*samples_lights*/) { return true; }
+    static constexpr bool serves(const LearningSettings&) { return true; }
 
     PL_HD Vertex locate(const SurfacePoint&, MethodCounters&) const { return {}; }
     PL_HD Sample observe(auto&, const Observation&, const auto& /*vertex*/, MethodCounters&) const { return {}; }

@@ -3,7 +3,9 @@
 #pragma once
 
 #include "core/kernel/base/type_list.h"
+#include "core/kernel/guiding/lobe_field.h"
 #include "core/kernel/guiding/neural_vertex_field.h"
+#include "core/kernel/guiding/sd_tree_field.h"
 #include "core/kernel/guiding/table_field.h"
 #include "core/kernel/methods/default.h"
 #include "core/kernel/methods/precomputed.h"
@@ -11,26 +13,34 @@
 
 namespace pl {
 
-/// An integrator of a method. A method with several, for its settings or for several representations of its field, has one
-/// line for each, one after the other.
-template <class Identity, Method M>
+/// An integrator of a method, and the sets of effects that it is compiled for. A method with several, for its settings or for several
+/// representations of its field, has one line for each, one after the other.
+template <class Identity, Method M, KernelRange range = KernelRange::Full>
 struct MethodKernel {
     using Info = Identity;
     using Integrator = M;
+    static constexpr KernelRange kRange = range;
+    static constexpr bool kIsForHostAlone = false;
+};
+/// One that no device has kernels for.
+template <class Identity, Method M, KernelRange range = KernelRange::Full>
+struct HostKernel : MethodKernel<Identity, M, range> {
+    static constexpr bool kIsForHostAlone = true;
 };
 
-// One line each: cmake/MethodList.cmake counts them, and compiles each in a file of its own.
+// One line each: cuda/CMakeLists.txt counts those that devices have, which come first, and compiles each in a file of its own. Only tables
+// have other targets than that of Expected Sarsa, and kernels for fields that stay constant: a field of another kind stays constant by
+// FieldTrainer::trains.
 // clang-format off
 using MethodList = TypeList<
     MethodKernel<Default, DefaultMethod>,
     MethodKernel<Precomputed, Guided<TableField, FrozenField>>,
-    MethodKernel<Precomputed, Guided<NeuralVertexField, FrozenField>>,
     MethodKernel<Reinforcement, Guided<TableField, ExpectedSarsa>>,
-    MethodKernel<Reinforcement, Guided<TableField, Sarsa>>,
-    MethodKernel<Reinforcement, Guided<TableField, MonteCarlo>>,
-    MethodKernel<Reinforcement, Guided<NeuralVertexField, ExpectedSarsa>>,
-    MethodKernel<Reinforcement, Guided<NeuralVertexField, Sarsa>>,
-    MethodKernel<Reinforcement, Guided<NeuralVertexField, MonteCarlo>>
+    MethodKernel<Reinforcement, Guided<TableField, Sarsa>, KernelRange::Sparse>,
+    MethodKernel<Reinforcement, Guided<TableField, MonteCarlo>, KernelRange::Sparse>,
+    MethodKernel<Reinforcement, Guided<NeuralVertexField, ExpectedSarsa>, KernelRange::Sparse>,
+    HostKernel<Reinforcement, Guided<SdTreeField, ExpectedSarsa>, KernelRange::Sparse>,
+    HostKernel<Reinforcement, Guided<LobeField, ExpectedSarsa>, KernelRange::Sparse>
 >;
 // clang-format on
 
@@ -64,15 +74,23 @@ constexpr bool takes_field() {
         return true;
 }
 
-/// Calls the same for the first entry that serves a method, its settings and a field of type F.
-template <class F = TableField, class Visit>
-constexpr bool with_method_kernel(MethodId method, const LearningSettings& learning, bool samples_lights,
-                                  Visit&& visit) {
+/// Whether a method trains its field while it renders.
+constexpr bool is_learning(MethodId method) {
+    return any_method_kernel([&]<int kEntry>() {
+        return MethodId{method_index<kEntry>()} == method && TypeAt<kEntry, MethodList>::Info::kInfo.learns;
+    });
+}
+
+/// Calls visit.operator()<kEntry>() for the entry that serves passes of a method with a field of type F. Passes of a method that learns
+/// may train nothing: they run an integrator whose field stays constant, if F has one. Returns whether there is an entry.
+template <class F, class Visit>
+constexpr bool with_method_kernel(MethodId method, const LearningSettings& learning, bool trains, Visit&& visit) {
+    const bool is_constant = !trains && is_learning(method);
     return any_method_kernel([&]<int kEntry>() {
         using Integrator = typename TypeAt<kEntry, MethodList>::Integrator;
         if constexpr (takes_field<Integrator, F>()) {
-            if (MethodId{method_index<kEntry>()} != method || !Integrator::serves(learning, samples_lights))
-                return false;
+            const bool is_own = MethodId{method_index<kEntry>()} == method && Integrator::serves(learning);
+            if (!is_own && !(is_constant && Integrator::kIsConstant)) return false;
             visit.template operator()<kEntry>();
             return true;
         } else {

@@ -142,6 +142,16 @@ PL_HD inline Vec3f front_normal(const SceneView& scene, const SurfacePoint& poin
         return scene.planes[point.primitive].normal;
 }
 
+/// The shading normal of a surface whose normals come from an image.
+template <FeatureSet F>
+PL_HOST_APART PL_HD inline Vec3f mapped_shading_normal(const SceneView& scene, const SurfacePoint& point,
+                                                       Vec3f attributes) {
+    const float side = point.front ? 1.0f : -1.0f;
+    const MappedPoint mapped{point.material, triangle_of<F>(scene, point.primitive),
+                             texture_axis<F>(scene, point.primitive), attributes, front_normal<F>(scene, point)};
+    return side * mapped_normal(scene.textures, mapped, side * point.shading_normal);
+}
+
 /// The point with its shading normal: interpolated if F has SmoothNormals, by the normal map if F has NormalMaps; `attributes` are the
 /// barycentric weights of both.
 template <FeatureSet F>
@@ -152,13 +162,8 @@ PL_HD inline SurfacePoint with_shading_normal(const SceneView& scene, SurfacePoi
         point.shading_normal = pack(turned_to(unpack(point.geometric_normal), unpack(smooth)));
     }
     if constexpr (F.has(Feature::NormalMaps)) {
-        if (has_normal_map(scene.textures, point.material)) {
-            const float side = point.front ? 1.0f : -1.0f;
-            const MappedPoint mapped{point.material, triangle_of<F>(scene, point.primitive),
-                                     texture_axis<F>(scene, point.primitive), attributes,
-                                     front_normal<F>(scene, point)};
-            point.shading_normal = side * mapped_normal(scene.textures, mapped, side * point.shading_normal);
-        }
+        if (has_normal_map(scene.textures, point.material))
+            point.shading_normal = mapped_shading_normal<F>(scene, point, attributes);
     }
     return point;
 }

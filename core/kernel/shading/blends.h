@@ -40,7 +40,7 @@ PL_HD inline float share_at(const Textures& textures, const MaterialBlend& blend
 
 /// Number of the material that a point of a surface with the material `point.material` shows towards wo. SceneView::blends must not be
 /// empty.
-PL_HD inline std::uint32_t blended_material(const SceneView& scene, MaterialPoint point, Vec3f wo) {
+PL_HOST_APART PL_HD inline std::uint32_t blended_material(const SceneView& scene, MaterialPoint point, Vec3f wo) {
     for (std::uint32_t choice = 0; choice < kMostBlends; ++choice) {
         const MaterialBlend& blend = scene.blends[point.material];
         if (blend.other == kNoBlend) break;

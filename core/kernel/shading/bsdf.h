@@ -61,22 +61,7 @@ public:
     PL_HD LayeredBsdfOf(const SurfacePoint& surface, Vec3f wo, Vec3f albedo, const SurfaceLobes& lobes,
                         Span<const float> tables, const Grain& grain = {})
         : Facets(grain), reflectance_(albedo), lobes_(lobes), tables_(tables.data + lobes.table), albedo_(albedo) {
-        if (is_lambert()) return;
-        // The shading normal may face away from the viewer; the geometric one never does.
-        const bool usable = glm::dot(wo, surface.shading_normal) > kGrazing;
-        frame_ = Facets::frame(grain, usable ? surface.shading_normal : surface.geometric_normal);
-        wo_ = frame_.to_local(wo);
-        wo_.z = max_of(wo_.z, kGrazing);
-        // A coat is on both sides; the back of a dielectric is its inside.
-        const bool is_inside = lobes.kind == SurfaceKind::Dielectric && !surface.front;
-        eta_ = is_inside ? 1.0f / lobes.ior : lobes.ior;
-        if (lobes.kind == SurfaceKind::Plastic) {
-            returned_ = plastic().reflected_by_coat(wo_.z);
-        } else if (!smooth()) {
-            if (is_inside) tables_ += AlbedoTable::kSize;
-            returned_ = AlbedoTable{tables_}.at(Facets::table_roughness(lobes.roughness), wo_.z);
-        }
-        albedo_ = directional_albedo();
+        if (!is_lambert()) face(surface, wo, grain);
     }
 
     PL_HD bool is_lambert() const { return lobes_.kind == SurfaceKind::Diffuse; }
@@ -122,7 +107,7 @@ public:
         return smooth() && lobes_.kind != SurfaceKind::Plastic ? 0.0f : std::fabs(z);
     }
     /// BSDF times |cos theta_i|, 1/sr, without delta lobes, for a direction whose cosine() is not 0.
-    PL_HD Vec3f eval(const SurfacePoint&, Vec3f wi, float cos_i) const {
+    PL_HOST_APART PL_HD inline Vec3f eval(const SurfacePoint&, Vec3f wi, float cos_i) const {
         switch (lobes_.kind) {
         case SurfaceKind::Diffuse: return lambert_eval(reflectance_, cos_i);
         case SurfaceKind::Conductor: return conductor().eval(frame_.to_local(wi));
@@ -132,7 +117,7 @@ public:
         }
         return Vec3f{0.0f};
     }
-    PL_HD float pdf_sa(const SurfacePoint& surface, Vec3f wi) const {
+    PL_HOST_APART PL_HD inline float pdf_sa(const SurfacePoint& surface, Vec3f wi) const {
         switch (lobes_.kind) {
         case SurfaceKind::Diffuse: return lambert_pdf_sa(surface, wi);
         case SurfaceKind::Conductor: return conductor().pdf_sa(frame_.to_local(wi));
@@ -144,7 +129,7 @@ public:
     }
     /// A unit direction with density pdf_sa() per steradian, or 0 for a sample of value 0; u in [0,1)^2, `choice` in
     /// [0, 1).
-    PL_HD Vec3f sample(const SurfacePoint& surface, Vec2f u, float choice) const {
+    PL_HOST_APART PL_HD inline Vec3f sample(const SurfacePoint& surface, Vec2f u, float choice) const {
         switch (lobes_.kind) {
         case SurfaceKind::Diffuse: return lambert_sample(surface, u);
         case SurfaceKind::Conductor: return to_world(conductor().sample(u, choice));
@@ -157,6 +142,25 @@ public:
 
 private:
     static constexpr float kGrazing = 1e-5f;
+
+    /// Sets what depends on the direction, of a surface that is no Lambert reflector.
+    PL_HOST_APART PL_HD inline void face(const SurfacePoint& surface, Vec3f wo, const Grain& grain) {
+        // The shading normal may face away from the viewer; the geometric one never does.
+        const bool usable = glm::dot(wo, surface.shading_normal) > kGrazing;
+        frame_ = Facets::frame(grain, usable ? surface.shading_normal : surface.geometric_normal);
+        wo_ = frame_.to_local(wo);
+        wo_.z = max_of(wo_.z, kGrazing);
+        // A coat is on both sides; the back of a dielectric is its inside.
+        const bool is_inside = lobes_.kind == SurfaceKind::Dielectric && !surface.front;
+        eta_ = is_inside ? 1.0f / lobes_.ior : lobes_.ior;
+        if (lobes_.kind == SurfaceKind::Plastic) {
+            returned_ = plastic().reflected_by_coat(wo_.z);
+        } else if (!smooth()) {
+            if (is_inside) tables_ += AlbedoTable::kSize;
+            returned_ = AlbedoTable{tables_}.at(Facets::table_roughness(lobes_.roughness), wo_.z);
+        }
+        albedo_ = directional_albedo();
+    }
 
     PL_HD bool smooth() const { return lobes_.kind != SurfaceKind::Diffuse && lobes_.roughness == 0.0f; }
     PL_HD Vec3f to_world(Vec3f local) const {

@@ -120,7 +120,7 @@ PL_INLINE FarSampleOf<N> sample_far(const FarLights& lights, const Real2<N>& u, 
     const FarDirection<N> far(lights, sampled.wi, sampled.place);
     return {sampled.wi, far.radiance(), far.pdf_sa()};
 }
-PL_HD inline FarSample sample_far(const FarLights& lights, Vec2f u, float choice) {
+PL_HOST_APART PL_HD inline FarSample sample_far(const FarLights& lights, Vec2f u, float choice) {
     const FarSampleOf<One> sample = sample_far<One>(lights, unpack(u), choice);
     return {pack(sample.wi), pack(sample.radiance), sample.pdf_sa};
 }

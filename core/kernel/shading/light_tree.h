@@ -173,7 +173,8 @@ PL_HD inline float cluster_probability(LearnedLights learned, std::uint32_t clus
 }
 
 /// Samples a light for the point `from`, by the tree or by the mixture of it with a learned choice; u in [0,1).
-PL_HD inline ChosenLight choose_light(const LightTree& tree, Vec3f from, float u, LearnedLights learned = {}) {
+PL_HOST_APART PL_HD inline ChosenLight choose_light(const LightTree& tree, Vec3f from, float u,
+                                                    LearnedLights learned = {}) {
     WayByNumber way{u};
     if (learned.empty()) {
         const LightDescent leaf = descend<DescentEnd::Light>(tree, 0, from, way);
@@ -197,8 +198,8 @@ PL_HD inline ChosenLight choose_light(const LightTree& tree, Vec3f from, float u
 }
 
 /// Probability with which choose_light() returns this light.
-PL_HD inline float light_probability(const LightTree& tree, std::uint32_t light, Vec3f from,
-                                     LearnedLights learned = {}) {
+PL_HOST_APART PL_HD inline float light_probability(const LightTree& tree, std::uint32_t light, Vec3f from,
+                                                   LearnedLights learned = {}) {
     WayByTrail way{tree.of_light[light].trail};
     if (learned.empty()) return descend<DescentEnd::Light>(tree, 0, from, way).probability;
     const LightDescent root = descend<DescentEnd::Cluster>(tree, 0, from, way);

@@ -156,8 +156,8 @@ PL_HD inline LightPoint sample_chosen_light(const SceneView& scene, const Chosen
 
 /// Samples a light and a point on it; u in [0,1)^3. The scene must have lights.
 template <FeatureSet F = FeatureSet{}>
-PL_HD inline LightPoint sample_light(const SceneView& scene, const Receiver& receiver, Vec3f u,
-                                     LearnedLights learned = {}) {
+PL_HOST_APART PL_HD inline LightPoint sample_light(const SceneView& scene, const Receiver& receiver, Vec3f u,
+                                                   LearnedLights learned = {}) {
     return sample_chosen_light<F>(scene, choose_light<F>(scene, receiver.position, u.x, learned), receiver,
                                   {u.y, u.z});
 }
@@ -254,8 +254,8 @@ PL_HD inline DirectLight direct_light_from(const SceneView& scene, const Surface
 /// Light sample for a surface point; u.x, u.y, u.z in [0,1), u.w in [0, 1) selects far lights or emissive triangles. `learned`: of
 /// the point. The caller traces the shadow ray.
 template <FeatureSet F = FeatureSet{}, class B>
-PL_HD inline DirectLight sample_direct_light(const SceneView& scene, const SurfacePoint& surface, const B& bsdf,
-                                             Vec4f u, LearnedLights learned = {}) {
+PL_HOST_APART PL_HD inline DirectLight sample_direct_light(const SceneView& scene, const SurfacePoint& surface,
+                                                           const B& bsdf, Vec4f u, LearnedLights learned = {}) {
     if constexpr (F.has(Feature::DeltaLights)) {
         if (scene.delta_probability > 0.0f) {
             // By z, which is spread evenly over the passes, as w is not: no other estimator makes up for missing samples.

@@ -55,22 +55,40 @@ PL_HD inline Vec3f albedo_at(const SceneView& scene, const MaterialPoint& point)
     return albedo;
 }
 
-/// Parameters of the other lobes. SceneView::lobes must not be empty.
+/// Parameters of lobes whose material may have images of them.
 template <FeatureSet F>
-PL_HD inline SurfaceLobes lobes_at(const SceneView& scene, const MaterialPoint& point) {
-    SurfaceLobes lobes = scene.lobes[point.material];
-    if constexpr (F.has(Feature::Textures)) {
-        if (lobes.kind == SurfaceKind::Conductor) lobes.specular *= tint_at<F>(scene, point);
-        if (!scene.textures.of_material.empty()) {
-            const std::uint32_t image = scene.textures.of_material[point.material].roughness;
-            if (image != kNoImage) {
-                const Vec2f uv = uv_at(scene.textures, point.triangle, point.b);
-                const float share = sample_image(scene.textures, image, uv).x;
-                lobes.roughness = clamp_to(lobes.roughness * share, kLeastTexturedRoughness, 1.0f);
-            }
+PL_HOST_APART PL_HD inline SurfaceLobes lobes_by_image(const SceneView& scene, const MaterialPoint& point,
+                                                       SurfaceLobes lobes) {
+    if (lobes.kind == SurfaceKind::Conductor) lobes.specular *= tint_at<F>(scene, point);
+    if (!scene.textures.of_material.empty()) {
+        const std::uint32_t image = scene.textures.of_material[point.material].roughness;
+        if (image != kNoImage) {
+            const Vec2f uv = uv_at(scene.textures, point.triangle, point.b);
+            const float share = sample_image(scene.textures, image, uv).x;
+            lobes.roughness = clamp_to(lobes.roughness * share, kLeastTexturedRoughness, 1.0f);
         }
     }
     return lobes;
+}
+
+/// Parameters of the other lobes. SceneView::lobes must not be empty.
+template <FeatureSet F>
+PL_HD inline SurfaceLobes lobes_at(const SceneView& scene, const MaterialPoint& point) {
+    const SurfaceLobes lobes = scene.lobes[point.material];
+    if constexpr (F.has(Feature::Textures)) {
+        if (lobes.kind != SurfaceKind::Diffuse) return lobes_by_image<F>(scene, point, lobes);
+    }
+    return lobes;
+}
+
+/// Emitted radiance of a surface whose material may have an image of it.
+template <FeatureSet F>
+PL_HOST_APART PL_HD inline Vec3f emission_by_image(const SceneView& scene, const SurfacePoint& surface, Vec3f b,
+                                                   Vec3f emitted) {
+    const MaterialImages& images = scene.textures.of_material[surface.material];
+    if (images.emission == kNoImage) return emitted;
+    const Vec2f uv = uv_at(scene.textures, triangle_of<F>(scene, surface.primitive), b);
+    return emitted * (images.emission_scale * color_of(sample_image(scene.textures, images.emission, uv)));
 }
 
 /// Emitted radiance towards wo.
@@ -78,14 +96,8 @@ template <FeatureSet F>
 PL_HD inline Vec3f emitted_at(const SceneView& scene, const SurfacePoint& surface, Vec3f b) {
     const Vec3f emitted = emitted_radiance(scene.materials[surface.material], surface.front);
     if constexpr (F.has(Feature::Textures)) {
-        if (!scene.textures.of_material.empty() && !is_black(emitted)) {
-            const MaterialImages& images = scene.textures.of_material[surface.material];
-            if (images.emission != kNoImage) {
-                const Vec2f uv = uv_at(scene.textures, triangle_of<F>(scene, surface.primitive), b);
-                return emitted *
-                       (images.emission_scale * color_of(sample_image(scene.textures, images.emission, uv)));
-            }
-        }
+        if (!scene.textures.of_material.empty() && !is_black(emitted))
+            return emission_by_image<F>(scene, surface, b, emitted);
     }
     return emitted;
 }

@@ -41,7 +41,7 @@ TEST_CASE("Effects: what is needed has a reason, and the rest a kernel that woul
         INFO(row.name);
         CHECK(row.needed() == (row.feature == Feature::Specular));
         CHECK(row.kernel == model.kernel_with(row.with()));
-        CHECK((row.kernel == model.kernel()) == (kCompiledSets[3].has(row.feature)));
+        CHECK((row.kernel == model.kernel()) == (kPlainFeatures.with(kLobeFeatures).has(row.feature)));
     }
     const auto specular = std::ranges::find(model.rows(), "specular", &EffectRow::name);
     REQUIRE(specular != model.rows().end());

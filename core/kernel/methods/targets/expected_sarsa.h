@@ -34,7 +34,7 @@ struct ExpectedSarsa : FieldTrainer<F> {
 
     LearningSettings learning{};
 
-    static constexpr bool serves(const LearningSettings& learning, bool) {
+    static constexpr bool serves(const LearningSettings& learning) {
         return learning.target == LearningTarget::ExpectedSarsa;
     }
 
@@ -62,7 +62,7 @@ struct ExpectedSarsa : FieldTrainer<F> {
         return {vertex, estimate.irradiance, estimate.cluster};
     }
     PL_HD void record_light(Light light, bool is_visible) const {
-        if (learning.light != LearnedLight::Indirect || !light.location.is_served()) return;
+        if (!this->trains || learning.light != LearnedLight::Indirect || !light.location.is_served()) return;
         if (!is_visible) light.irradiance = 0.0f;
         this->field.record_light(light);
     }

@@ -8,6 +8,7 @@ namespace pl {
 template <GuidingField F>
 struct FrozenField : FieldTrainer<F> {
     static constexpr bool kLearnsLights = true;  ///< the field may have learned them before
+    static constexpr bool kIsConstant = true;
 };
 
 }  // namespace pl

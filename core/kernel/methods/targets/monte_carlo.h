@@ -16,9 +16,7 @@ template <GuidingField F>
 struct MonteCarlo : FieldTrainer<F> {
     using typename FieldTrainer<F>::Vertex;
 
-    static constexpr KernelRange kKernelRange = KernelRange::Sparse;
-
-    static constexpr bool serves(const LearningSettings& learning, bool) {
+    static constexpr bool serves(const LearningSettings& learning) {
         return learning.target == LearningTarget::MonteCarlo;
     }
 

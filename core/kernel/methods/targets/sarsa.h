@@ -17,9 +17,7 @@ template <RadianceField F>
 struct Sarsa : FieldTrainer<F> {
     using typename FieldTrainer<F>::Vertex;
 
-    static constexpr KernelRange kKernelRange = KernelRange::Sparse;
-
-    static constexpr bool serves(const LearningSettings& learning, bool) {
+    static constexpr bool serves(const LearningSettings& learning) {
         return learning.target == LearningTarget::Sarsa;
     }
 
