@@ -174,6 +174,11 @@ fs::path find_assets_dir() {
     }
     std::error_code ignored;
     const fs::path program = fs::read_symlink("/proc/self/exe", ignored);
+    // Installed as PREFIX/bin/pathlight, wherever PREFIX has been moved to.
+    if (const fs::path installed = program.parent_path().parent_path() / "share" / "pathlight" / "assets";
+        has_scenes(installed)) {
+        return installed;
+    }
     for (fs::path dir = program.parent_path(); !dir.empty(); dir = dir.parent_path()) {
         if (has_scenes(dir / "assets")) {
             return dir / "assets";
