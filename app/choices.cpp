@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include "core/base/error.h"
 #include "core/io/nearest_name.h"
 
 namespace pl {
@@ -27,8 +26,8 @@ std::string one_of(const std::vector<std::string>& names) {
 }
 
 void fail_choice(const std::vector<std::string>& names, const std::string& got) {
-    throw Error(ErrorKind::Usage,
-                fmt::format("expected {}, got '{}' (nearest: '{}')", one_of(names), got, nearest_name(got, names)));
+    throw ChoiceError(
+        fmt::format("expected {}, got '{}' (nearest: '{}')", one_of(names), got, nearest_name(got, names)), names);
 }
 
 }  // namespace pl

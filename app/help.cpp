@@ -140,6 +140,10 @@ std::span<const CommandInfo> all_commands() { return kCommands; }
 
 const CommandInfo& info_of(Command command) { return kCommands[static_cast<std::size_t>(command)]; }
 
+std::string_view scene_help() { return kScene; }
+
+std::string_view exit_code_help() { return kExitCodes; }
+
 std::string_view command_name(Command command) { return info_of(command).name; }
 
 std::string program_help() {
@@ -151,9 +155,9 @@ std::string program_help() {
     text += "\n";
     for (const CommandInfo& info : kCommands)
         text += in_columns(fmt::format("  {}", info.name), info.summary.substr(0, info.summary.find('\n')));
-    text += fmt::format(
-        "\n{}\nOptions: pathlight SUBCOMMAND --help. Also: --list-methods, --list-views, --version.\n\n{}", kScene,
-        kExitCodes);
+    text += fmt::format("\n{}\nOptions: pathlight SUBCOMMAND --help. Also: --list-methods, --list-views, --version, "
+                        "--licenses.\n\n{}",
+                        kScene, kExitCodes);
     return text;
 }
 
@@ -169,6 +173,13 @@ std::string version_text(bool verbose) {
     std::string text = "pathlight " PL_VERSION "\n";
     if (verbose) text += fmt::format("commit {}\n", commit_id());
     return text;
+}
+
+std::string licenses_text() {
+    return fmt::format(
+        "{}Copyright 2026 The pathlight authors\nLicensed under the Apache License, Version 2.0, which is at the end "
+        "of this text.\n\n{}\n{}",
+        version_text(false), third_party_text(), license_text());
 }
 
 std::string method_list(bool json) {

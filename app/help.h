@@ -23,11 +23,17 @@ struct CommandInfo {
 std::span<const CommandInfo> all_commands();
 const CommandInfo& info_of(Command command);
 
+/// Parts of all help texts: what SCENE may be, and the exit codes.
+std::string_view scene_help();
+std::string_view exit_code_help();
+
 /// Help of the whole program and of one subcommand. All texts end with a line feed.
 std::string program_help();
 std::string command_help(Command command);
 /// `verbose`: with the commit of the build.
 std::string version_text(bool verbose);
+/// The program's licence and what others contributed.
+std::string licenses_text();
 /// Registries as a table, or as one JSON object per line.
 std::string method_list(bool json);
 std::string view_list(bool json);

@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "app/generate.h"
 #include "app/help.h"
 #include "core/base/error.h"
 #include "core/io/load_scene.h"
@@ -22,6 +23,7 @@ struct Found {
     bool version = false;
     bool list_methods = false;
     bool list_views = false;
+    bool licenses = false;
 };
 
 [[noreturn]] void fail(const std::string& message) { throw Error(ErrorKind::Usage, message); }
@@ -74,10 +76,12 @@ void add_options(CLI::App& app, Command command, Found& found) {
     app.allow_extras();
     for (const OptionSpec& spec : option_table())
         if (spec.commands.has(command)) add_option(app, spec, found);
-    app.add_flag("-h,--help", found.help);
-    app.add_flag("--version", found.version);
-    app.add_flag("--list-methods", found.list_methods);
-    app.add_flag("--list-views", found.list_views);
+    // What is described here is part of the manual page and of completions, see parser_flags().
+    app.add_flag("-h,--help", found.help, "Print the options of the subcommand and exit");
+    app.add_flag("--version", found.version, "Print the version and exit; with -v the commit, too");
+    app.add_flag("--list-methods", found.list_methods, "Print the methods and exit");
+    app.add_flag("--list-views", found.list_views, "Print the views and exit");
+    app.add_flag("--licenses", found.licenses, "Print the licences of the program and its parts and exit");
     switch (info_of(command).inputs) {
     case Inputs::Nothing: break;
     case Inputs::Scene: app.add_option("SCENE,--scene", found.scene)->take_last(); break;
@@ -129,6 +133,7 @@ std::optional<std::string> answer_to(Command command, const Found& found) {
     if (found.version) return version_text(is_given(found, "verbose"));
     if (found.list_methods) return method_list(json);
     if (found.list_views) return view_list(json);
+    if (found.licenses) return licenses_text();
     return std::nullopt;
 }
 
@@ -160,8 +165,23 @@ void require_complete(Command command, const Options& options) {
 
 }  // namespace
 
+std::vector<ParserFlag> parser_flags(Command command) {
+    Found found;
+    CLI::App app;
+    add_options(app, command, found);
+    std::vector<ParserFlag> flags;
+    for (const CLI::Option* option : app.get_options())
+        if (!option->get_description().empty())
+            flags.push_back({option->get_name(false, true), option->get_description()});
+    return flags;
+}
+
 CommandLine parse_command_line(const std::vector<std::string>& arguments) {
     CommandLine line;
+    if (arguments.size() == 2 && arguments.front() == "--generate") {
+        line.answer = generated_page(arguments.back());
+        return line;
+    }
     std::vector<std::string> rest = arguments;
     const bool bare = rest.empty() || is_option(rest.front());
     line.command = take_command(rest);

@@ -28,6 +28,13 @@ struct CommandLine {
 /// nearest known one), a wrong value or a missing argument; Error(Input) for the camera file.
 CommandLine parse_command_line(const std::vector<std::string>& arguments);
 
+/// An option that the parser of a subcommand knows besides those of the table.
+struct ParserFlag {
+    std::string flags;  ///< all spellings: "-h,--help"
+    std::string help;
+};
+std::vector<ParserFlag> parser_flags(Command command);
+
 /// Defaults, then the scene's camera and settings, then the given options. A loaded field brings its method and
 /// settings, of which only the lookup may be given otherwise. Throws Error(Usage) for options that exclude each
 /// other, Error(Input) for invalid settings of the scene.

@@ -1,5 +1,7 @@
 #include "core/io/load_scene.h"
 
+#include <sys/auxv.h>
+
 #include <algorithm>
 #include <cstdlib>
 #include <system_error>
@@ -173,7 +175,16 @@ fs::path find_assets_dir() {
         return named;
     }
     std::error_code ignored;
-    const fs::path program = fs::read_symlink("/proc/self/exe", ignored);
+    fs::path program = fs::read_symlink("/proc/self/exe", ignored);
+    if (program.empty()) {
+        // A chroot may lack /proc; the kernel also tells by which path it has started the program.
+        program = fs::absolute(reinterpret_cast<const char*>(getauxval(AT_EXECFN)), ignored);
+    }
+    // Installed as PREFIX/bin/pathlight, wherever PREFIX has been moved to.
+    if (const fs::path installed = program.parent_path().parent_path() / "share" / "pathlight" / "assets";
+        has_scenes(installed)) {
+        return installed;
+    }
     for (fs::path dir = program.parent_path(); !dir.empty(); dir = dir.parent_path()) {
         if (has_scenes(dir / "assets")) {
             return dir / "assets";

@@ -21,8 +21,9 @@ namespace pl {
 SceneDescription load_scene(const std::string& name_or_path, const std::filesystem::path& assets_dir,
                             const LoadSettings& asked = {});
 
-/// The folder that contains `scenes/`: the environment variable PATHLIGHT_ASSETS if it is set, else `assets` in the
-/// program's folder or one of its parents, else that of the source tree. Throws Error(Input) if there is none.
+/// The folder that contains `scenes/`: the environment variable PATHLIGHT_ASSETS if it is set, else that of an installed
+/// program, `../share/pathlight/assets` from the program's folder, else `assets` in the program's folder or one of its
+/// parents, else that of the source tree. Throws Error(Input) if there is none.
 std::filesystem::path find_assets_dir();
 
 /// Names of the scenes in assets_dir/scenes, sorted.

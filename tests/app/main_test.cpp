@@ -18,8 +18,13 @@ Arguments render(const std::string& scene, const std::string& output, const Argu
 }  // namespace
 
 TEST_CASE("0: questions are answered on standard output") {
-    for (const Arguments& question : std::vector<Arguments>{
-             {"--help"}, {"--version"}, {"--list-methods"}, {"--list-views"}, {"render", "--help"}, {"devices"}}) {
+    for (const Arguments& question : std::vector<Arguments>{{"--help"},
+                                                            {"--version"},
+                                                            {"--list-methods"},
+                                                            {"--list-views"},
+                                                            {"--licenses"},
+                                                            {"render", "--help"},
+                                                            {"devices"}}) {
         const ProgramResult result = run_program(question);
         CAPTURE(question, result.err);
         CHECK(result.code == 0);
