@@ -129,6 +129,19 @@ ScriptCondition read_condition(ScriptLine& line) {
     return condition;
 }
 
+/// Takes " within N" off the end of a wait's value.
+void read_limit(const ScriptLine& line, ScriptCommand& command) {
+    constexpr std::string_view kWord = " within ";
+    std::string& value = command.condition.value;
+    const std::size_t at = value.rfind(kWord);
+    if (at == std::string::npos) return;
+    const std::string text = value.substr(at + kWord.size());
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), command.most_passes);
+    if (error != std::errc{} || end != text.data() + text.size() || command.most_passes == 0)
+        line.fail(fmt::format("expected a number of passes, a whole number from 1, got '{}'", text));
+    value.resize(at);
+}
+
 void read_arguments(ScriptLine& line, std::string_view word, ScriptCommand& command) {
     switch (command.kind) {
     case Kind::Move:
@@ -169,10 +182,12 @@ void read_arguments(ScriptLine& line, std::string_view word, ScriptCommand& comm
     case Kind::Shot: command.text = line.rest("a file name"); break;
     case Kind::Expect: command.condition = read_condition(line); break;
     case Kind::Wait:
-        if (word == "wait")
+        if (word == "wait") {
             command.condition = read_condition(line);
-        else
+            read_limit(line, command);
+        } else {
             command.condition = {"spp", ">=", fmt::format("{}", line.number("a number of samples"))};
+        }
         break;
     case Kind::Quit: break;
     }

@@ -96,6 +96,7 @@ struct EffectTrialCost {
 struct WorkerStatus {
     WorkerState state = WorkerState::Starting;
     std::uint32_t passes = 0;
+    std::uint64_t all_passes = 0;  ///< of every film, since the start
     int divider = 1;
     double seconds = 0.0;                        ///< work_seconds()
     std::optional<EffectTrialCost> effect_cost;  ///< while a trial runs
