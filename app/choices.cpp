@@ -28,7 +28,7 @@ std::string one_of(const std::vector<std::string>& names) {
 
 void fail_choice(const std::vector<std::string>& names, const std::string& got) {
     throw Error(ErrorKind::Usage,
-                fmt::format("expected {}, got '{}' (nearest: '{}')", one_of(names), got, nearest_name(got, names)));
+                fmt::format("expected {}, got '{}'{}", one_of(names), got, did_you_mean(got, names)));
 }
 
 }  // namespace pl

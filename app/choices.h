@@ -12,7 +12,7 @@ std::vector<std::string> split_at_commas(const std::string& text);
 /// "a, b or c"
 std::string one_of(const std::vector<std::string>& names);
 
-/// Throws Error(Usage) with all words, and the nearest one.
+/// Throws Error(Usage) with all words, and the nearest one if any is near.
 [[noreturn]] void fail_choice(const std::vector<std::string>& names, const std::string& got);
 
 template <class Range, class Name>

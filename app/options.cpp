@@ -47,8 +47,11 @@ Command take_command(std::vector<std::string>& arguments) {
         names.emplace_back(info.name);
     }
     if (is_scene(word)) return Command::View;
-    fail(fmt::format("unknown subcommand '{}' (nearest: '{}'; known: {}), and no scene of that name", word,
-                     nearest_name(word, names), fmt::join(names, ", ")));
+    std::vector<std::string> known = names;
+    for (const std::string& scene : list_scenes(find_assets_dir())) known.push_back(scene);
+    const std::string hint = did_you_mean(word, known);
+    fail(fmt::format("unknown subcommand '{}', and no scene of that name{} Subcommands are: {}", word,
+                     hint.empty() ? "." : hint, fmt::join(names, ", ")));
 }
 
 void add_option(CLI::App& app, const OptionSpec& spec, Found& found) {
@@ -98,7 +101,7 @@ void refuse(const CLI::App& app, Command command, const std::vector<std::string>
     std::vector<std::string> known;
     for (const CLI::Option* option : app.get_options())
         for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
-    fail(fmt::format("unknown option '{}' of '{}' (nearest: '{}')", word, command_word, nearest_name(word, known)));
+    fail(fmt::format("unknown option '{}' of '{}'{}", word, command_word, did_you_mean(word, known)));
 }
 
 Found parse(Command command, std::vector<std::string> arguments) {

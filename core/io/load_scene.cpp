@@ -5,7 +5,6 @@
 #include <system_error>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "core/base/error.h"
 #include "core/io/emitting_meshes.h"
@@ -127,9 +126,7 @@ void warn_of_missing_uvs(SceneDescription& scene) {
                 name));
     }
     const std::vector<std::string> known = list_scenes(assets_dir);
-    const std::string hint = known.empty() ? ""
-                                           : fmt::format(", did you mean '{}'? Known are: {}",
-                                                         nearest_name(name, known), fmt::join(known, ", "));
+    const std::string hint = known.empty() ? "" : known_names(name, known);
     throw Error(ErrorKind::Input, fmt::format("no scene '{}'{}", name, hint));
 }
 

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "core/base/error.h"
@@ -102,8 +101,8 @@ private:
         for (const std::string& name : *names) {
             const auto found = std::find(groups_.names.begin(), groups_.names.end(), name);
             if (found == groups_.names.end()) {
-                file_.fail(at + "/groups", fmt::format("the mesh has no group {}, did you mean '{}'?",
-                                                       in_quotes(name), nearest_name(name, groups_.names)));
+                file_.fail(at + "/groups", fmt::format("the mesh has no group {}{}", in_quotes(name),
+                                                       did_you_mean(name, groups_.names)));
             }
             moved[static_cast<std::size_t>(found - groups_.names.begin())] = true;
         }
@@ -246,11 +245,8 @@ void require_known_knobs(const SceneDescription& scene, const KnobValues& asked)
     for (const KnobDescription& knob : scene.knobs) known.push_back(knob.name);
     for (const auto& [name, value] : asked) {
         if (std::find(known.begin(), known.end(), name) != known.end()) continue;
-        const std::string hint = known.empty() ? "it has none"
-                                               : fmt::format("nearest: '{}'; known: {}", nearest_name(name, known),
-                                                             fmt::join(known, ", "));
-        throw Error(ErrorKind::Usage,
-                    fmt::format("--knob {}: {} has no such knob ({})", name, scene.source.string(), hint));
+        throw Error(ErrorKind::Usage, fmt::format("--knob {}: {} has no such knob{}", name, scene.source.string(),
+                                                  known.empty() ? ": it has none" : known_names(name, known)));
     }
 }
 

@@ -144,12 +144,12 @@ TEST_CASE("2: usage") {
         std::string message;
     };
     const std::vector<Wrong> wrongs{
-        {{"rendr"}, "nearest: 'render'"},
+        {{"rendr"}, "did you mean 'render'?"},
         {{"reference", "cornell"}, "needs a folder to write to"},
         {{"bench", "cornell"}, "needs a folder to write to"},
         {{"compare", "a.exr"}, "needs two pictures"},
         {{"report"}, "needs one folder"},
-        {render("cornell", folder / "x.png", {"--expsure", "1"}), "nearest: '--exposure'"},
+        {render("cornell", folder / "x.png", {"--expsure", "1"}), "did you mean '--exposure'?"},
         {render("cornell", folder / "x.png", {"--spp", "-1"}), "--spp: expected"},
         {render("cornell", folder / "x.png", {"--view", "radiance-map"}), "precomputed or reinforcement"},
         {render("cornell", folder / "x.png", {"--target-error", "0"}), "--target-error: expected"},

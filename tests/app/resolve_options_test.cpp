@@ -57,9 +57,9 @@ TEST_CASE("wrong values name the option, the expected and the given value") {
         {{"--bsdf-fraction", "1.01"}, "--bsdf-fraction: expected"},
         {{"--nee", "yes"}, "--nee: expected on or off, got 'yes'"},
         {{"--method", "reinforcment"},
-         "--method: expected default, precomputed or reinforcement, got 'reinforcment' "
-         "(nearest: 'reinforcement')"},
-        {{"--view", "voroni"}, "nearest: 'voronoi'"},
+         "--method: expected default, precomputed or reinforcement, got 'reinforcment', "
+         "did you mean 'reinforcement'?"},
+        {{"--view", "voroni"}, "did you mean 'voronoi'?"},
         {{"--backend", "gpu"}, "--backend: expected auto, cpu or cuda"},
         {{"--tonemap", "filmic"}, "--tonemap: expected clamp, reinhard or aces"},
         {{"--exposure", "65"}, "--exposure: expected"},
@@ -72,9 +72,9 @@ TEST_CASE("wrong values name the option, the expected and the given value") {
         {{"--refine", "nan"}, "--refine: expected"},
         {{"--refine", "half"}, "--refine: expected"},
         {{"--learning-rate", "means"},
-         "--learning-rate: expected mean, forgetful, power or floor, got 'means' (nearest: 'mean')"},
+         "--learning-rate: expected mean, forgetful, power or floor, got 'means', did you mean 'mean'?"},
         {{"--field", "sdtree"},
-         "--field: expected table, sd-tree, lobes, neural or neural-vertex, got 'sdtree' (nearest: 'sd-tree')"},
+         "--field: expected table, sd-tree, lobes, neural or neural-vertex, got 'sdtree', did you mean 'sd-tree'?"},
         {{"--iterations", "twice"}, "--iterations: expected updates or doubling, got 'twice'"},
         {{"--iterations", "doubling"}, "--iterations doubling: expected --field sd-tree with it, got --field table"},
         {{"--field", "sd-tree", "--method", "precomputed"},
@@ -86,10 +86,12 @@ TEST_CASE("wrong values name the option, the expected and the given value") {
         {{"--field", "lobes", "--iterations", "doubling"},
          "--iterations doubling: expected --field sd-tree with it, got --field lobes"},
         {{"--learn-target", "montecarlo"},
-         "--learn-target: expected expected-sarsa, sarsa or monte-carlo, got 'montecarlo' (nearest: 'monte-carlo')"},
-        {{"--learn-from", "direct"}, "--learn-from: expected all or indirect, got 'direct' (nearest: 'indirect')"},
-        {{"--roulette", "feild"}, "--roulette: expected spare, albedo or field, got 'feild' (nearest: 'field')"},
-        {{"--lookup", "kd-tree"}, "--lookup: expected kdtree, linear or grid, got 'kd-tree' (nearest: 'kdtree')"},
+         "--learn-target: expected expected-sarsa, sarsa or monte-carlo, got 'montecarlo', did you mean "
+         "'monte-carlo'?"},
+        {{"--learn-from", "direct"},
+         "--learn-from: expected all or indirect, got 'direct', did you mean 'indirect'?"},
+        {{"--roulette", "feild"}, "--roulette: expected spare, albedo or field, got 'feild', did you mean 'field'?"},
+        {{"--lookup", "kd-tree"}, "--lookup: expected kdtree, linear or grid, got 'kd-tree', did you mean 'kdtree'?"},
         {{"--seed", "-1"}, "--seed: expected a whole number of at least 0"},
         {{"--seed", "18446744073709551616"}, "--seed: expected"},
     };
@@ -130,10 +132,10 @@ TEST_CASE("options of later versions are refused by name") {
 }
 
 TEST_CASE("unknown words name the nearest one") {
-    CHECK_THAT(complaint({"rendr", "s"}), contains("nearest: 'render'"));
-    CHECK_THAT(complaint(render_with({"--sppp", "3"})), contains("nearest: '--spp'"));
-    CHECK_THAT(complaint(render_with({"--metod=default"})), contains("nearest: '--method'"));
-    CHECK_THAT(complaint({"devices", "--jsn"}), contains("nearest: '--json'"));
+    CHECK_THAT(complaint({"rendr", "s"}), contains("did you mean 'render'?"));
+    CHECK_THAT(complaint(render_with({"--sppp", "3"})), contains("did you mean '--spp'?"));
+    CHECK_THAT(complaint(render_with({"--metod=default"})), contains("did you mean '--method'?"));
+    CHECK_THAT(complaint({"devices", "--jsn"}), contains("did you mean '--json'?"));
     CHECK_THAT(complaint({"info", "s", "--bins", "4"}), contains("unknown option '--bins' of 'info'"));
     CHECK_THAT(complaint({"render", "s", "t", "-o", "x.png"}), contains("unexpected argument 't'"));
 }
