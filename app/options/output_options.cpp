@@ -6,10 +6,13 @@ namespace {
 // clang-format off
 constexpr auto kOutputOptions = std::to_array<OptionSpec>({
     {.name = "output", .flags = "-o,--output,--outfile", .value = "FILE", .group = kOutput,
-     .help = "File to write; its suffix decides the kind: .exr and .pfm linear, .png tone mapped (inspect: "
-             ".json, .csv, .png)",
-     .commands = kFiles, .parse = parse_text<&Options::output>,
+     .help = "Picture to write; its suffix decides the kind: .exr and .pfm linear, .png tone mapped. -: a PNG to standard "
+             "output; exr:- and pfm:- likewise",
+     .commands = CommandSet(Command::Render), .parse = parse_text<&Options::output>,
      .print = [](const Options& o) { return o.output; }},
+    {.name = "output", .flags = "-o,--output,--outfile", .value = "FILE", .group = kOutput,
+     .help = "File to write; its suffix decides the kind: .json, .csv or .png",
+     .commands = CommandSet(Command::Inspect), .parse = parse_text<&Options::output>},
     {.name = "output", .flags = "-o,--output,--outfile", .value = "FILE", .group = kOutput,
      .help = "Also draw the paths as lines into this PNG, over the first surfaces",
      .commands = CommandSet(Command::Trace), .parse = parse_text<&Options::output>},
