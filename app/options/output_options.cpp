@@ -39,22 +39,22 @@ constexpr auto kOutputOptions = std::to_array<OptionSpec>({
     {.name = "checkpoint", .flags = "--checkpoint", .value = "FILE", .group = kOutput,
      .help = "Write the state of the rendering now and then, when it is interrupted, and at its end. The same command with "
              "--resume FILE goes on from there, to the same bits",
-     .commands = CommandSet(Command::Render), .parse = parse_text<&Options::checkpoint_file>},
+     .is_expert = true, .commands = CommandSet(Command::Render), .parse = parse_text<&Options::checkpoint_file>},
     {.name = "checkpoint-every", .flags = "--checkpoint-every", .value = "SECONDS", .group = kOutput,
      .help = "Least time between two checkpoints of a rendering (default 600)",
-     .commands = CommandSet(Command::Render), .parse = parse_checkpoint_interval},
+     .is_expert = true, .commands = CommandSet(Command::Render), .parse = parse_checkpoint_interval},
     {.name = "resume", .flags = "--resume", .value = "FILE", .group = kOutput,
      .help = "Go on from a checkpoint of the same scene, settings and back end; threads, processes and limits may differ",
-     .commands = CommandSet(Command::Render), .parse = parse_text<&Options::resume_file>},
+     .is_expert = true, .commands = CommandSet(Command::Render), .parse = parse_text<&Options::resume_file>},
     {.name = "diagnostics", .flags = "--diagnostics", .value = "FILE", .group = kOutput,
      .help = "Locate invalid samples, escaped paths, lookup misses and clamped training samples by tracing the "
              "paths again: .png marks their pixels in the picture, .exr and .pfm hold their counts per pixel; "
              "--stats has both as numbers",
-     .commands = CommandSet(Command::Render), .parse = parse_text<&Options::diagnostics_file>},
+     .is_expert = true, .commands = CommandSet(Command::Render), .parse = parse_text<&Options::diagnostics_file>},
     {.name = "gain", .flags = "--gain", .value = "FILE", .group = kOutput,
      .help = "Where a guided method gains or loses against default, tile by tile: renders default for the same time "
              "after the picture, and compares their noise. .json: numbers; .png: the picture with a mark for each tile",
-     .commands = CommandSet(Command::Render), .parse = parse_text<&Options::gain_file>},
+     .is_expert = true, .commands = CommandSet(Command::Render), .parse = parse_text<&Options::gain_file>},
 });
 // clang-format on
 
