@@ -1,6 +1,7 @@
-// Help, version, lists of methods and views.
+// Help, lists of methods and views.
 #pragma once
 
+#include <array>
 #include <span>
 #include <string>
 #include <string_view>
@@ -17,17 +18,21 @@ struct CommandInfo {
     std::string_view name;
     std::string_view arguments;
     std::string_view summary;
+    std::array<std::string_view, 3> examples;
     Inputs inputs = Inputs::Scene;
 };
 
 std::span<const CommandInfo> all_commands();
 const CommandInfo& info_of(Command command);
 
+enum class HelpExtent {
+    Usual,  ///< without OptionSpec::is_expert
+    All,
+};
+
 /// Help of the whole program and of one subcommand. All texts end with a line feed.
 std::string program_help();
-std::string command_help(Command command);
-/// `verbose`: with the commit of the build.
-std::string version_text(bool verbose);
+std::string command_help(Command command, HelpExtent extent);
 /// Registries as a table, or as one JSON object per line.
 std::string method_list(bool json);
 std::string view_list(bool json);
