@@ -3,10 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
-#include "core/base/error.h"
+#include "app/choices.h"
 #include "core/inspect/incident_light.h"
 
 namespace pl {
@@ -15,7 +12,7 @@ namespace {
 void parse_drawn(Options& options, Text text) {
     constexpr std::array<std::string_view, 4> kNames{"disc", "lobe", "dome", "flowers"};
     if (std::ranges::find(kNames, text) == kNames.end())
-        throw Error(ErrorKind::Usage, fmt::format("expected {}, got '{}'", fmt::join(kNames, ", "), text));
+        fail_choice(names_in(kNames, [](std::string_view name) { return name; }), text);
     options.drawn = text;
 }
 

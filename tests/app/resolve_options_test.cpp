@@ -196,7 +196,12 @@ TEST_CASE("options of later versions are refused by name") {
                contains("--save-field: the viewer saves") && contains("Ctrl+Shift+S"));
 }
 
-TEST_CASE("unknown words name the nearest one") {
+TEST_CASE("unknown words name the nearest one, if any is near") {
+    for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
+             {"--backend", "gpu"}, {"--method", "rl"}, {"--tonemap", "filmic"}, {"--zz", "1"}})
+        CHECK(complaint(render_with(words)).find("did you mean") == std::string::npos);
+    CHECK(complaint({"man"}).find("did you mean") == std::string::npos);
+    CHECK_THAT(complaint({"cornel"}), contains("did you mean 'cornell'?"));
     CHECK_THAT(complaint({"rendr", "s"}), contains("did you mean 'render'?"));
     CHECK_THAT(complaint(render_with({"--sppp", "3"})), contains("did you mean '--spp'?"));
     CHECK_THAT(complaint(render_with({"--metod=default"})), contains("did you mean '--method'?"));

@@ -117,7 +117,8 @@ TEST_CASE("Knobs that are wrong in the file are refused with file and line") {
         Case{R"("turns": [{"groups": ["leaf"], "about": [0, 0, 0], "axis": [0, 0, 0], "by_deg": 1}])",
              "expected a direction"},
         Case{R"("turns": [{"groups": ["leaf"], "about": [0, 0, 0], "axis": [0, 1, 0]}])", "expected 'by_deg'"},
-        Case{R"("turns": [{"groups": ["leaf"], "about": [0, 0, 0], "by": [0, 1, 0]}])", "did you mean"},
+        Case{R"("turns": [{"groups": ["leaf"], "about": [0, 0, 0], "by": [0, 1, 0]}])",
+             "unknown key. Known are: groups"},
         Case{R"("scales": [{"groups": ["leaf"], "about": [0, 0, 0], "by": [0.5, 0, 0]}])", "nothing is left"},
         Case{R"("albedo": ["wall"])", "expected the default to be the albedo"},
         Case{R"("albedo": ["floor"])", "no material 'floor'"});
