@@ -54,7 +54,8 @@ private:
 TEST_CASE("a picture goes to standard output alone") {
     const TempDir folder;
     const auto render = [](const std::string& output, const Arguments& more = {}) {
-        Arguments arguments{"render", "cornell", "-o", output, "--size", "8x8", "--spp", "2"};
+        Arguments arguments{"render", "cornell", "-o",       output,        "--size",    "8x8",
+                            "--spp",  "2",       "--method", "precomputed", "--volumes", "20"};
         arguments.insert(arguments.end(), more.begin(), more.end());
         return arguments;
     };
@@ -63,7 +64,7 @@ TEST_CASE("a picture goes to standard output alone") {
         const ProgramResult piped = run_program(render(output, {"--gain", folder / "g.json"}));
         CAPTURE(output, piped.err);
         CHECK(piped.code == 0);
-        CHECK_THAT(piped.err, contains("8x8, default") && contains("g.json: "));
+        CHECK_THAT(piped.err, contains("8x8, precomputed") && contains("g.json: "));
         const std::string file = folder / ("x." + suffix);
         REQUIRE(run_program(render(file)).code == 0);
         // Metadata have the time of the rendering, and the command.
