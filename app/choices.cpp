@@ -26,8 +26,7 @@ std::string one_of(const std::vector<std::string>& names) {
 }
 
 void fail_choice(const std::vector<std::string>& names, const std::string& got) {
-    throw ChoiceError(
-        fmt::format("expected {}, got '{}' (nearest: '{}')", one_of(names), got, nearest_name(got, names)), names);
+    throw ChoiceError(fmt::format("expected {}, got '{}'{}", one_of(names), got, did_you_mean(got, names)), names);
 }
 
 }  // namespace pl

@@ -25,7 +25,7 @@ private:
     std::vector<std::string> names_;
 };
 
-/// Throws ChoiceError with all words, and the nearest one.
+/// Throws ChoiceError with all words, and the nearest one if any is near.
 [[noreturn]] void fail_choice(const std::vector<std::string>& names, const std::string& got);
 
 template <class Range, class Name>

@@ -20,7 +20,11 @@ void Console::configure(const Options& options) {
 }
 
 void Console::result(const std::string& text) {
-    if (!json_) write(text);
+    if (json_) return;
+    if (is_for_data_)
+        log_.notice(text.substr(0, text.find_last_not_of('\n') + 1));
+    else
+        write(printable(text));
 }
 
 void Console::remark(const std::string& text) {
@@ -28,7 +32,7 @@ void Console::remark(const std::string& text) {
 }
 
 void Console::event(std::string_view kind, const Json& members) {
-    if (json_) write(event_line(kind, members));
+    if (json_) write(printable(event_line(kind, members)));
 }
 
 void Console::warn_about(const SceneDescription& scene) {
@@ -38,8 +42,9 @@ void Console::warn_about(const SceneDescription& scene) {
     }
 }
 
-void Console::write(const std::string& given) {
-    const std::string text = printable(given);
+void Console::data(std::string_view bytes) { write(bytes); }
+
+void Console::write(std::string_view text) {
     log_.clear_status();
     if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0) failure_ = errno;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "app/events.h"
 #include "app/option_values.h"
@@ -25,15 +26,20 @@ public:
     void event(std::string_view kind, const Json& members);
     void warn_about(const SceneDescription& scene);
 
+    /// Standard output is for data() alone from now on: text goes to the log as notices.
+    void keep_output_for_data() { is_for_data_ = true; }
+    void data(std::string_view bytes);
+
     /// Throws Error(Runtime) if a write to standard output failed.
     void finish();
 
 private:
-    void write(const std::string& text);
+    void write(std::string_view text);
 
     Log log_;
     bool json_ = false;
     bool quiet_ = false;
+    bool is_for_data_ = false;
     int failure_ = 0;
 };
 

@@ -7,81 +7,122 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "app/build_info.h"
 #include "app/events.h"
 #include "app/options.h"
 
 namespace pl {
 namespace {
 
+// clang-format off
 constexpr std::array kCommands{
     CommandInfo{Command::View, "view", "[SCENE]",
-                "Opens the viewer (default scene: cornell). The word 'view' may be left out."},
-    CommandInfo{Command::Render, "render", "SCENE -o IMAGE", "Makes a picture without a display."},
-    CommandInfo{
-        Command::Replay, "replay", "SCENE --path FILE -o DIR",
-        "Makes the pictures of a moving camera, frame by frame, without a display.\n"
-        "FILE holds the cameras of the path, such as the viewer's bookmarks. Every frame gets the same time, or the\n"
-        "same samples; what is learned stays from one to the next. An interrupted replay keeps its whole frames."},
+                "Opens the viewer (default scene: cornell). The word 'view' may be left out.",
+                {"pathlight",
+                 "pathlight door --method reinforcement",
+                 "pathlight view staircase --size 640x360 --spp 256"}},
+    CommandInfo{Command::Render, "render", "SCENE -o IMAGE",
+                "Makes a picture without a display.",
+                {"pathlight render cornell -o cornell.png",
+                 "pathlight render door --method reinforcement --time-limit 10 -o door.exr",
+                 "pathlight render door --knob opening=5 --size 256x256 --spp 16 -o dark.png"}},
+    CommandInfo{Command::Replay, "replay", "SCENE --path FILE -o DIR",
+                "Makes the pictures of a moving camera, frame by frame, without a display.\n"
+                "FILE holds the cameras of the path, such as the viewer's bookmarks. Every frame gets the same time,\n"
+                "or the same samples; what is learned stays from one to the next. An interrupted replay keeps its\n"
+                "whole frames.",
+                {"pathlight replay door --path bookmarks.json --spp 16 -o frames",
+                 "pathlight replay door --path bookmarks.json --frames 48 --seconds-per-frame 2 -o frames",
+                 "pathlight replay cornell --path bookmarks.json --format exr -o frames"}},
     CommandInfo{Command::Info, "info", "SCENE",
-                "Prints the contents of a scene, the effects that it needs and the kernel that serves it."},
+                "Prints the contents of a scene, the effects that it needs and the kernel that serves it.",
+                {"pathlight info door",
+                 "pathlight info door --knob opening=5",
+                 "pathlight info cornell --json"}},
     CommandInfo{Command::Convert, "convert", "SCENE -o FILE",
-                "Writes a scene in the program's own format: FILE, a .json, with mesh and images in the folder FILE-parts.\n"
-                "The new scene renders to the same bits as SCENE with the same options. Knobs are left out, their values\n"
-                "stay; a default light is written as an environment map. Nothing is overwritten: both names have to be new."},
-    CommandInfo{Command::Devices, "devices", "", "Lists the back ends, and why one is unavailable.", Inputs::Nothing},
+                "Writes a scene in the program's own format: FILE, a .json, with mesh and images in FILE-parts.\n"
+                "The new scene renders to the same bits as SCENE with the same options. Knobs are left out, their\n"
+                "values stay; a default light is written as an environment map. Nothing is overwritten: both names\n"
+                "have to be new.",
+                {"pathlight convert cornell -o room.json",
+                 "pathlight convert door --knob opening=45 -o open-door.json",
+                 "pathlight convert kitchen.xml -D shade=0.5 -o kitchen.json"}},
+    CommandInfo{Command::Devices, "devices", "",
+                "Lists the back ends, and why one is unavailable.",
+                {"pathlight devices",
+                 "pathlight devices --json",
+                 "pathlight devices --json --log-file devices.log"},
+                Inputs::Nothing},
     CommandInfo{Command::Inspect, "inspect", "SCENE (--at X,Y,Z[,NX,NY,NZ] | --pixel X,Y) -o FILE",
                 "Trains, then writes the learned hemisphere at a point.\n"
-                "Training takes --spp samples per pixel with method reinforcement; method precomputed\n"
-                "only computes its radiance map. The suffix decides the kind of file: .json, .csv (one\n"
-                "row per direction cell) or .png (the hemisphere as an equal-area disc)."},
+                "Training takes --spp samples per pixel with method reinforcement; method precomputed only\n"
+                "computes its radiance map. The suffix decides the kind of file: .json, .csv (one row per\n"
+                "direction cell) or .png (the hemisphere as an equal-area disc).",
+                {"pathlight inspect cornell --pixel 256,450 -o floor.png",
+                 "pathlight inspect cornell --at 400,0,100 --size 256x256 -o floor.json",
+                 "pathlight inspect door --pixel 256,400 --truth -o floor.csv"}},
     CommandInfo{Command::Trace, "trace", "SCENE --pixel X,Y (--sample N[-M] | --why)",
                 "Prints one path of a picture: every vertex with its densities and weights.\n"
-                "It is the path that 'render' with the same options traces, to the bit. A method that learns\n"
-                "renders the samples before it first, so that the field is the one that the path sampled from.\n"
-                "Of several samples a line each, the brightest first; with --json each whole path. --why: the noise\n"
-                "of the pixel by technique and bounces, and whether guiding gains there."},
-    CommandInfo{
-        Command::Compare, "compare", "IMAGE REFERENCE",
-        "Measures the error of a picture against another, in all metrics.\n"
-        "Both are linear: .exr or .pfm. REFERENCE may be a folder of 'pathlight reference': it then has to hold the\n"
-        "reference of the same scene, camera, size and depth as an .exr of 'pathlight render'.",
-        Inputs::Pictures},
-    CommandInfo{
-        Command::Reference, "reference", "SCENE -o DIR",
-        "Renders a converged picture in two independent halves, stored by a hash of its scene, camera and size.\n"
-        "Continues a reference that is there: after an interruption, or for more samples. Renders by method default\n"
-        "with next-event estimation unless given otherwise; the converged picture is the same."},
-    CommandInfo{
-        Command::Bench, "bench", "SCENE... -o DIR",
-        "Measures accuracy against time: methods x back ends x scenes x seeds.\n"
-        "Each run starts with an empty field. Time is placing, precomputing, learning and rendering; loading,\n"
-        "building, uploading and measuring are not in it. The same command continues an interrupted bench.\n"
-        "'report' makes a page of the folder.",
-        Inputs::Scenes},
+                "It is the path that 'render' with the same options traces, to the bit. A method that learns renders\n"
+                "the samples before it first, so that the field is the one that the path sampled from. Of several\n"
+                "samples a line each, the brightest first; with --json each whole path. --why: the noise of the\n"
+                "pixel by technique and bounces, and whether guiding gains there.",
+                {"pathlight trace cornell --pixel 256,450 --sample 0",
+                 "pathlight trace cornell --pixel 256,450 --sample 0-15",
+                 "pathlight trace door --pixel 256,400 --why --method reinforcement"}},
+    CommandInfo{Command::Compare, "compare", "IMAGE REFERENCE",
+                "Measures the error of a picture against another, in all metrics.\n"
+                "Both are linear: .exr, .pfm or .hdr. REFERENCE may be a folder of 'pathlight reference': it then\n"
+                "has to hold the reference of the same scene, camera, size and depth as an .exr of 'render'.",
+                {"pathlight compare door.exr better.exr",
+                 "pathlight compare door.exr references --target-error 0.01",
+                 "pathlight compare door.pfm better.pfm --flip"},
+                Inputs::Pictures},
+    CommandInfo{Command::Reference, "reference", "SCENE -o DIR",
+                "Renders a converged picture in two independent halves.\n"
+                "They are stored by a hash of scene, camera and size, and a reference that is there goes on: after an\n"
+                "interruption, or for more samples. Renders by method default with next-event estimation unless\n"
+                "given otherwise; the converged picture is the same.",
+                {"pathlight reference cornell -o references",
+                 "pathlight reference door --spp 1024 --size 256x256 -o references",
+                 "pathlight reference door --time-limit 60 -o references"}},
+    CommandInfo{Command::Bench, "bench", "SCENE... -o DIR",
+                "Measures accuracy against time: methods x back ends x scenes x seeds.\n"
+                "Each run starts with an empty field. Time is placing, precomputing, learning and rendering; loading,\n"
+                "building, uploading and measuring are not in it. The same command continues an interrupted bench.\n"
+                "'report' makes a page of the folder.",
+                {"pathlight bench cornell door --time-limit 2 -o results",
+                 "pathlight bench door --method default,reinforcement --seeds 5 --spp 64 -o results",
+                 "pathlight bench cornell --effects --seeds 3 --size 256x256 --spp 16 -o kernels"},
+                Inputs::Scenes},
     CommandInfo{Command::Report, "report", "DIR",
                 "Makes one HTML page of a bench folder, and its plots as SVG and PNG.\n"
                 "The page is self-contained.",
+                {"pathlight report results",
+                 "pathlight report results --json",
+                 "pathlight report results --quiet"},
                 Inputs::Folder},
-    CommandInfo{
-        Command::SelfTest, "selftest", "",
-        "Renders scenes whose radiance has a closed form, on every back end that is available.\n"
-        "Each line has the expected and the measured value, and the share of the tolerance between them. Exit\n"
-        "with 5 if a check fails.",
-        Inputs::Nothing},
+    CommandInfo{Command::SelfTest, "selftest", "",
+                "Renders scenes whose radiance has a closed form, on every back end that is available.\n"
+                "Each line has the expected and the measured value, and the share of the tolerance between them.\n"
+                "Exit with 5 if a check fails.",
+                {"pathlight selftest",
+                 "pathlight selftest --backend cpu",
+                 "pathlight selftest --json"},
+                Inputs::Nothing},
 };
+// clang-format on
 
 constexpr std::string_view kScene =
-    "SCENE is a name (cornell, door, ...), an .obj, .gltf, .glb or Mitsuba .xml file, or a scene .json file.\n"
-    "Settings of a scene file are defaults that options override.\n";
+    "SCENE is a name (cornell, door, ...), an .obj, .gltf, .glb or Mitsuba .xml file, or a scene .json\n"
+    "file, whose settings are defaults that options override.\n";
 
 constexpr std::string_view kExitCodes =
-    "Exit codes: 0 done, 1 run-time failure, 2 usage, 3 input missing or invalid, 4 back end, device or "
-    "display\n"
-    "unavailable, 5 a threshold was missed, 130 interrupted (a partial picture is written and marked).\n";
+    "Exit codes: 0 done, 1 run-time failure, 2 usage, 3 input missing or invalid, 4 back end, device or\n"
+    "display unavailable, 5 a threshold was missed, 130 interrupted (a partial picture is written and\n"
+    "marked).\n";
 
 constexpr std::size_t kHelpColumn = 32;
-constexpr std::size_t kLineWidth = 110;
+constexpr std::size_t kLineWidth = 100;
 
 /// "-t,--threads" as "-t, --threads N".
 std::string option_head(const OptionSpec& spec) {
@@ -119,18 +160,39 @@ std::string in_columns(const std::string& head, std::string_view text) {
     return result + "\n";
 }
 
-std::string options_help(Command command) {
+bool is_shown(const OptionSpec& spec, Command command, HelpExtent extent) {
+    return !spec.group.empty() && spec.commands.has(command) && (extent == HelpExtent::All || !spec.is_expert);
+}
+
+std::string options_help(Command command, HelpExtent extent) {
     std::vector<std::string_view> groups;
     for (const OptionSpec& spec : option_table())
-        if (std::find(groups.begin(), groups.end(), spec.group) == groups.end() && !spec.group.empty())
-            groups.push_back(spec.group);
+        if (std::find(groups.begin(), groups.end(), spec.group) == groups.end()) groups.push_back(spec.group);
     std::string text;
     for (const std::string_view group : groups) {
         std::string lines;
         for (const OptionSpec& spec : option_table())
-            if (spec.group == group && spec.commands.has(command)) lines += in_columns(option_head(spec), spec.help);
+            if (spec.group == group && is_shown(spec, command, extent))
+                lines += in_columns(option_head(spec), spec.help);
         if (!lines.empty()) text += fmt::format("\n{}:\n{}", group, lines);
     }
+    return text;
+}
+
+/// The way to the options that are not shown; empty if all are.
+std::string rest_help(Command command, HelpExtent extent) {
+    const auto count = [&](HelpExtent of) {
+        return std::ranges::count_if(option_table(),
+                                     [&](const OptionSpec& spec) { return is_shown(spec, command, of); });
+    };
+    const auto hidden = count(HelpExtent::All) - count(extent);
+    if (hidden == 0) return "";
+    return fmt::format("\n{} more options: pathlight {} --help-all\n", hidden, command_name(command));
+}
+
+std::string examples_help(const CommandInfo& info) {
+    std::string text = "\nExamples:\n";
+    for (const std::string_view example : info.examples) text += fmt::format("  {}\n", example);
     return text;
 }
 
@@ -152,34 +214,31 @@ std::string program_help() {
         const std::string name = info.id == Command::View ? "[view]" : std::string(info.name);
         text += fmt::format("  pathlight {}{}{}\n", name, info.arguments.empty() ? "" : " ", info.arguments);
     }
-    text += "\n";
+    text += "  pathlight help [SUBCOMMAND]\n\n";
     for (const CommandInfo& info : kCommands)
         text += in_columns(fmt::format("  {}", info.name), info.summary.substr(0, info.summary.find('\n')));
-    text += fmt::format("\n{}\nOptions: pathlight SUBCOMMAND --help. Also: --list-methods, --list-views, --version, "
-                        "--licenses.\n\n{}",
-                        kScene, kExitCodes);
+    text += fmt::format(
+        "\n{}\nOptions: pathlight help SUBCOMMAND; all: pathlight SUBCOMMAND --help-all. Also: --list-methods,\n"
+        "--list-views, --version, --licenses.\n\n{}",
+        kScene, kExitCodes);
     return text;
 }
 
-std::string command_help(Command command) {
+std::string command_help(Command command, HelpExtent extent) {
     const CommandInfo& info = info_of(command);
-    const std::string scene =
-        info.inputs == Inputs::Scene || info.inputs == Inputs::Scenes ? fmt::format("\n{}", kScene) : "";
-    return fmt::format("{}\n\nUsage: pathlight {} {} [OPTIONS]\n{}{}\n{}", info.summary, info.name, info.arguments,
-                       scene, options_help(command), kExitCodes);
-}
-
-std::string version_text(bool verbose) {
-    std::string text = "pathlight " PL_VERSION "\n";
-    if (verbose) text += fmt::format("commit {}\n", commit_id());
-    return text;
+    const bool has_scene = info.inputs == Inputs::Scene || info.inputs == Inputs::Scenes;
+    const std::string usage =
+        fmt::format("pathlight {}{}{} [OPTIONS]", info.name, info.arguments.empty() ? "" : " ", info.arguments);
+    return fmt::format("{}\n\nUsage: {}\n{}{}{}\n{}{}", info.summary, usage,
+                       has_scene ? fmt::format("\n{}", kScene) : "", options_help(command, extent),
+                       rest_help(command, extent), kExitCodes, examples_help(info));
 }
 
 std::string licenses_text() {
     return fmt::format(
         "{}Copyright 2026 The pathlight authors\nLicensed under the Apache License, Version 2.0, which is at the end "
         "of this text.\n\n{}\n{}",
-        version_text(false), third_party_text(), license_text());
+        "pathlight " PL_VERSION "\n", third_party_text(), license_text());
 }
 
 std::string method_list(bool json) {

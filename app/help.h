@@ -1,6 +1,7 @@
-// Help, version, lists of methods and views.
+// Help, lists of methods and views.
 #pragma once
 
+#include <array>
 #include <span>
 #include <string>
 #include <string_view>
@@ -17,6 +18,7 @@ struct CommandInfo {
     std::string_view name;
     std::string_view arguments;
     std::string_view summary;
+    std::array<std::string_view, 3> examples;
     Inputs inputs = Inputs::Scene;
 };
 
@@ -27,11 +29,14 @@ const CommandInfo& info_of(Command command);
 std::string_view scene_help();
 std::string_view exit_code_help();
 
+enum class HelpExtent {
+    Usual,  ///< without OptionSpec::is_expert
+    All,
+};
+
 /// Help of the whole program and of one subcommand. All texts end with a line feed.
 std::string program_help();
-std::string command_help(Command command);
-/// `verbose`: with the commit of the build.
-std::string version_text(bool verbose);
+std::string command_help(Command command, HelpExtent extent);
 /// The program's licence and what others contributed.
 std::string licenses_text();
 /// Registries as a table, or as one JSON object per line.

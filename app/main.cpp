@@ -1,5 +1,4 @@
 // The program: parses the command line, runs a subcommand, turns errors into messages and exit codes.
-#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <exception>
@@ -9,9 +8,9 @@
 #include <vector>
 
 #include "app/commands.h"
-#include "app/help.h"
 #include "app/interrupt.h"
 #include "app/make_backend.h"
+#include "app/version.h"
 #include "core/base/error.h"
 #include "mpi/job.h"
 #include "mpi/mpi_backend.h"
@@ -70,10 +69,8 @@ int run_guarded(const std::vector<std::string>& arguments, Console& console) {
 /// The job of mpirun; empty without one, or if this program cannot take part in it: then `code` is that of the error.
 std::unique_ptr<Communicator> join(Console& console, int& code) {
     try {
-        std::string version = version_text(true);
-        std::ranges::replace(version, '\n', ' ');
         choose_device();
-        return join_job(version);
+        return join_job(program_identity());
     } catch (const Error& error) {
         code = tells_why_not_joined() ? tell(error.what(), error.kind(), console) : static_cast<int>(error.kind());
         return nullptr;

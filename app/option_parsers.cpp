@@ -157,6 +157,16 @@ void parse_picture_size(Options& options, const std::string& text) {
     options.height = size.y;
 }
 
+void parse_crop(Options& options, const std::string& text) {
+    const std::vector<std::string> items = split_at_commas(text);
+    if (items.size() != 4) fail_value("a window X,Y,W,H, four whole numbers", text);
+    const auto number = [&](std::size_t item, std::uint64_t low, std::uint64_t high) {
+        return static_cast<int>(parse_whole(items[item], low, high));
+    };
+    constexpr std::uint64_t kSide = kMaxImageSide;
+    options.crop = {number(0, 0, kSide - 1), number(1, 0, kSide - 1), number(2, 1, kSide), number(3, 1, kSide)};
+}
+
 void parse_forced_effects(Options& options, const std::string& text) {
     if (text == "all") {
         options.render.forced_effects = kEveryFeature;
@@ -177,6 +187,13 @@ void parse_knobs(Options& options, const std::string& text) {
         if (equals == 0 || equals == std::string::npos) fail_value("NAME=VALUE, such as opening=5", item);
         options.load.knobs.emplace_back(item.substr(0, equals), parse_float(item.substr(equals + 1)));
     }
+}
+
+void parse_parameter(Options& options, const std::string& text) {
+    const std::size_t equals = text.find('=');
+    if (equals == 0 || equals == std::string::npos || text.find('\n') != std::string::npos)
+        fail_value("NAME=VALUE, such as spp=64", text);
+    options.load.parameters.emplace_back(text.substr(0, equals), text.substr(equals + 1));
 }
 
 void parse_map_kd(Options& options, const std::string& text) {
@@ -233,6 +250,13 @@ std::string print_knobs(const Options& options) {
     std::string text;
     for (const auto& [name, value] : options.load.knobs)
         text += fmt::format("{}{}={}", text.empty() ? "" : ",", name, print_float(value));
+    return text;
+}
+
+std::string print_parameters(const Options& options) {
+    std::string text;
+    for (const auto& [name, value] : options.load.parameters)
+        text += fmt::format("{}{}={}", text.empty() ? "" : "\n", name, value);
     return text;
 }
 

@@ -35,6 +35,7 @@ void parse_window(Options& options, const std::string& text);
 void parse_ui_scale(Options& options, const std::string& text);
 void parse_remember(Options& options, const std::string& text);
 void parse_picture_size(Options& options, const std::string& text);
+void parse_crop(Options& options, const std::string& text);
 void parse_lookup(Options& options, const std::string& text);
 void parse_representation(Options& options, const std::string& text);
 /// "NAME,NAME...".
@@ -50,6 +51,8 @@ void parse_guiding(Options& options, const std::string& text);
 void parse_forced_effects(Options& options, const std::string& text);
 /// "NAME=VALUE", or several with commas between. The scene decides whether it takes them.
 void parse_knobs(Options& options, const std::string& text);
+/// "NAME=VALUE".
+void parse_parameter(Options& options, const std::string& text);
 void parse_up_axis(Options& options, const std::string& text);
 void parse_map_kd(Options& options, const std::string& text);
 void parse_at(Options& options, const std::string& text);
@@ -61,6 +64,7 @@ void parse_samples(Options& options, const std::string& text);
 std::string field_method_choices();
 
 std::string print_knobs(const Options& options);
+std::string print_parameters(const Options& options);
 /// Empty if it was not given.
 std::string print_default_light(const Options& options);
 /// Empty if it was not given.

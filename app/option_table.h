@@ -28,13 +28,14 @@ struct OptionSpec {
     std::string_view value;  ///< placeholder of the value in the help; empty: a switch
     std::string_view group;  ///< heading in the help; empty: not shown
     std::string_view help;
+    bool is_expert = false;       ///< in the help of all options only
     CommandSet commands;          ///< where it may be given
     bool repeatable = false;      ///< every occurrence counts, instead of the last one
     bool in_scene_files = false;  ///< may be a scene's setting
     /// Throws Error(Usage) "expected ..., got ..." for an invalid value.
     void (*parse)(Options&, const std::string& text) = nullptr;
     /// The value of the options as text that parses to it, empty if there is none; null for options that are no part
-    /// of a picture.
+    /// of a picture. Of an option that is given once for each of several values, these line by line.
     std::string (*print)(const Options&) = nullptr;
 };
 

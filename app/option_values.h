@@ -45,6 +45,14 @@ struct SampleNumbers {
     std::uint32_t last = 0;
 };
 
+/// A part of a picture, rows counted from the top.
+struct PixelWindow {
+    int x = 0;
+    int y = 0;
+    int width = 0;
+    int height = 0;
+};
+
 struct Options {
     std::string scene;                ///< name or path; empty if none was given
     std::vector<std::string> inputs;  ///< positional arguments of subcommands that do not take one scene
@@ -58,6 +66,7 @@ struct Options {
     std::optional<std::uint32_t> spp;
     std::optional<double> time_limit_seconds;
     std::optional<double> target_error;     ///< of Metrics::relmse
+    std::optional<PixelWindow> crop;        ///< the part of the picture that is rendered; `render` is of this part
     int width = 0;                          ///< 0: not given
     int height = 0;                         ///< 0: not given
     CameraChoice camera;                    ///< given parts; the others are the scene's

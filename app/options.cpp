@@ -7,6 +7,7 @@
 
 #include "app/generate.h"
 #include "app/help.h"
+#include "app/version.h"
 #include "core/base/error.h"
 #include "core/io/load_scene.h"
 #include "core/io/nearest_name.h"
@@ -20,6 +21,7 @@ struct Found {
     std::string scene;
     std::vector<std::string> inputs;
     bool help = false;
+    bool help_all = false;
     bool version = false;
     bool list_methods = false;
     bool list_views = false;
@@ -36,21 +38,45 @@ bool is_scene(const std::string& word) {
     return std::find(known.begin(), known.end(), word) != known.end();
 }
 
+constexpr std::string_view kHelpWord = "help";
+
+std::optional<Command> command_named(std::string_view word) {
+    for (const CommandInfo& info : all_commands())
+        if (info.name == word) return info.id;
+    return std::nullopt;
+}
+
+[[noreturn]] void fail_command(const std::string& word) {
+    std::vector<std::string> commands{std::string(kHelpWord)};
+    for (const CommandInfo& info : all_commands()) commands.emplace_back(info.name);
+    std::vector<std::string> names = commands;
+    for (const std::string& scene : list_scenes(find_assets_dir())) names.push_back(scene);
+    const std::string hint = did_you_mean(word, names);
+    fail(fmt::format("unknown subcommand '{}', and no scene of that name{} Subcommands are: {}", word,
+                     hint.empty() ? "." : hint, fmt::join(commands, ", ")));
+}
+
 /// The subcommand, taken off the front of the arguments; `view` if they start with an option or a scene.
 Command take_command(std::vector<std::string>& arguments) {
     if (arguments.empty() || is_option(arguments.front())) return Command::View;
-    const std::string word = arguments.front();
-    std::vector<std::string> names;
-    for (const CommandInfo& info : all_commands()) {
-        if (info.name == word) {
-            arguments.erase(arguments.begin());
-            return info.id;
-        }
-        names.emplace_back(info.name);
+    if (const std::optional<Command> command = command_named(arguments.front())) {
+        arguments.erase(arguments.begin());
+        return *command;
     }
-    if (is_scene(word)) return Command::View;
-    fail(fmt::format("unknown subcommand '{}' (nearest: '{}'; known: {}), and no scene of that name", word,
-                     nearest_name(word, names), fmt::join(names, ", ")));
+    if (is_scene(arguments.front())) return Command::View;
+    fail_command(arguments.front());
+}
+
+/// `pathlight help`, which may be followed by a subcommand; nothing if the arguments do not begin so.
+std::optional<std::string> help_asked_for(const std::vector<std::string>& arguments) {
+    if (arguments.empty() || arguments.front() != kHelpWord) return std::nullopt;
+    if (arguments.size() == 1) return program_help();
+    if (arguments.size() > 2)
+        fail(fmt::format("'{}': expected one subcommand, got {}", kHelpWord,
+                         fmt::join(arguments.begin() + 1, arguments.end(), " ")));
+    if (const std::optional<Command> command = command_named(arguments[1]))
+        return command_help(*command, HelpExtent::Usual);
+    fail_command(arguments[1]);
 }
 
 void add_option(CLI::App& app, const OptionSpec& spec, Found& found) {
@@ -77,8 +103,9 @@ void add_options(CLI::App& app, Command command, Found& found) {
     for (const OptionSpec& spec : option_table())
         if (spec.commands.has(command)) add_option(app, spec, found);
     // What is described here is part of the manual page and of completions, see parser_flags().
-    app.add_flag("-h,--help", found.help, "Print the options of the subcommand and exit");
-    app.add_flag("--version", found.version, "Print the version and exit; with -v the commit, too");
+    app.add_flag("-h,--help", found.help, "Print the usual options of the subcommand and exit");
+    app.add_flag("--help-all", found.help_all, "Print all options of the subcommand and exit");
+    app.add_flag("--version", found.version, "Print version, commit, compiler and back ends and exit");
     app.add_flag("--list-methods", found.list_methods, "Print the methods and exit");
     app.add_flag("--list-views", found.list_views, "Print the views and exit");
     app.add_flag("--licenses", found.licenses, "Print the licences of the program and its parts and exit");
@@ -102,7 +129,7 @@ void refuse(const CLI::App& app, Command command, const std::vector<std::string>
     std::vector<std::string> known;
     for (const CLI::Option* option : app.get_options())
         for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
-    fail(fmt::format("unknown option '{}' of '{}' (nearest: '{}')", word, command_word, nearest_name(word, known)));
+    fail(fmt::format("unknown option '{}' of '{}'{}", word, command_word, did_you_mean(word, known)));
 }
 
 Found parse(Command command, std::vector<std::string> arguments) {
@@ -129,8 +156,9 @@ bool is_given(const Found& found, std::string_view name) {
 
 std::optional<std::string> answer_to(Command command, const Found& found) {
     const bool json = is_given(found, "json");
-    if (found.help) return command_help(command);
-    if (found.version) return version_text(is_given(found, "verbose"));
+    if (found.help_all) return command_help(command, HelpExtent::All);
+    if (found.help) return command_help(command, HelpExtent::Usual);
+    if (found.version) return version_text();
     if (found.list_methods) return method_list(json);
     if (found.list_views) return view_list(json);
     if (found.licenses) return licenses_text();
@@ -182,6 +210,8 @@ CommandLine parse_command_line(const std::vector<std::string>& arguments) {
         line.answer = generated_page(arguments.back());
         return line;
     }
+    line.answer = help_asked_for(arguments);
+    if (line.answer) return line;
     std::vector<std::string> rest = arguments;
     const bool bare = rest.empty() || is_option(rest.front());
     line.command = take_command(rest);

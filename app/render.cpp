@@ -10,6 +10,7 @@
 #include "app/make_backend.h"
 #include "app/open_scene.h"
 #include "app/picture_metadata.h"
+#include "app/picture_target.h"
 #include "app/progress.h"
 #include "app/run_passes.h"
 #include "app/stats_json.h"
@@ -23,9 +24,8 @@
 namespace pl {
 namespace {
 
-void require_outputs(const Options& options) {
-    image_kind(options.output);
-    require_writable(options.output);
+void require_outputs(const Options& options, Console& console) {
+    require_target(options.output, console);
     if (!options.stats_file.empty()) require_writable(options.stats_file);
     if (!options.save_field.empty()) require_writable(options.save_field);
     if (!options.checkpoint_file.empty()) require_writable(options.checkpoint_file);
@@ -60,7 +60,7 @@ std::string target_text(const ErrorTarget* target) {
 }
 
 /// Throws Error(Threshold) if another limit ended the rendering before the target was met.
-void require_target(ErrorTarget* target, const RunOutcome& outcome) {
+void require_low_error(ErrorTarget* target, const RunOutcome& outcome) {
     if (target == nullptr || target->is_low_enough()) return;
     throw Error(ErrorKind::Threshold,
                 fmt::format("--target-error: expected {} of at most {:.3g} as relMSE, got {} when --{} was reached",
@@ -84,7 +84,7 @@ DiagnosticsMap write_diagnostics(DiagnosticsInput source, const Snapshot& snapsh
 void report(const Snapshot& snapshot, const Options& options, const Json& stats, bool interrupted,
             const ErrorTarget* target, const CheckpointFiles& checkpoints, Console& console) {
     const double seconds = snapshot.clocks.total();
-    const std::string range = image_kind(options.output) == ImageKind::Png ? legend(snapshot) : "";
+    const std::string range = picture_kind(options.output) == ImageKind::Png ? legend(snapshot) : "";
     console.remark(fmt::format("{}: {}x{}, {}, {}, {} spp, {:.2f} s{}{}{}{}\n", options.output, snapshot.width,
                                snapshot.height, info_of(snapshot.slot.method).name, info_of(snapshot.slot.view).name,
                                snapshot.passes, seconds, target_text(target), range.empty() ? "" : ", range ", range,
@@ -96,7 +96,7 @@ void report(const Snapshot& snapshot, const Options& options, const Json& stats,
                            {"interrupted", interrupted},
                            {"stats", stats}});
     if (interrupted)
-        console.log().warning(image_kind(options.output) == ImageKind::Pfm
+        console.log().warning(picture_kind(options.output) == ImageKind::Pfm
                                   ? "interrupted: the picture is partial, and a .pfm file cannot be marked so"
                                   : "interrupted: the picture is partial and marked so");
     if (const std::string way_on = checkpoints.way_on(); interrupted && !way_on.empty()) console.log().notice(way_on);
@@ -131,7 +131,7 @@ RunOutcome run_saved(Session& session, const Options& options, const InterruptGu
 
 int run_render(const CommandLine& line, Console& console) {
     const InterruptGuard interrupt;
-    require_outputs(line.options);
+    require_outputs(line.options, console);
     const LoadedScene loaded = open_scene(line.options.scene, line.options.load, console);
     FieldFiles fields(line.options);
     CheckpointFiles checkpoints(line.options, console);
@@ -153,7 +153,7 @@ int run_render(const CommandLine& line, Console& console) {
     const Snapshot snapshot = session.snapshot(slot);
     Json stats = stats_json(session, snapshot, options, outcome, aim);
     const ImageMetadata metadata = metadata_of(session, snapshot, stats, command, outcome.interrupted());
-    save_picture(options.output, snapshot, options.display, metadata);
+    write_picture(options.output, snapshot, options.display, metadata, console);
     bool is_complete = true;  // the files beside the picture
     if (!options.diagnostics_file.empty()) {
         const DiagnosticsMap found =
@@ -167,7 +167,7 @@ int run_render(const CommandLine& line, Console& console) {
         is_complete &= write_gain(session, snapshot, options, interrupt, console);
     report(snapshot, options, stats, outcome.interrupted(), aim, checkpoints, console);
     if (outcome.interrupted() || !is_complete) return kExitInterrupted;
-    require_target(aim, outcome);
+    require_low_error(aim, outcome);
     return 0;
 }
 

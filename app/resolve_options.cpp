@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 #include <fmt/format.h>
 
@@ -9,6 +10,7 @@
 #include "core/base/error.h"
 #include "core/io/files.h"
 #include "core/io/json_document.h"
+#include "core/scene/crop.h"
 
 namespace pl {
 namespace {
@@ -38,6 +40,22 @@ void settle_camera(Options& options) {
         throw Error(ErrorKind::Usage, fmt::format("--eye, --target: expected two different points, got {} for both",
                                                   print_vector(camera.eye)));
     if (camera.up == glm::vec3(0.0f)) throw Error(ErrorKind::Usage, "--up: expected a direction, got 0,0,0");
+}
+
+/// A crop becomes camera and size of the picture.
+void settle_crop(Options& options) {
+    if (!options.crop) return;
+    RenderSettings& render = options.render;
+    const PixelWindow& crop = *options.crop;
+    if (crop.x + crop.width > render.width || crop.y + crop.height > render.height)
+        throw Error(ErrorKind::Usage,
+                    fmt::format("--crop: expected a window within the picture of {}x{} pixels, got {}x{} at {},{}",
+                                render.width, render.height, crop.width, crop.height, crop.x, crop.y));
+    render.camera = cropped(render.camera, static_cast<float>(render.width), static_cast<float>(render.height),
+                            {static_cast<float>(crop.x), static_cast<float>(crop.y), static_cast<float>(crop.width),
+                             static_cast<float>(crop.height)});
+    render.width = crop.width;
+    render.height = crop.height;
 }
 
 /// Applies one setting of a scene file; error messages name the file and the line.
@@ -196,6 +214,7 @@ Options resolve_options(const CommandLine& line, const SceneDescription& scene, 
     if (loaded != nullptr) adopt_field(line, *loaded, options);
     settle_size(options);
     settle_camera(options);
+    settle_crop(options);
     if (line.command == Command::Inspect) settle_inspection(line, options);
     if (line.command == Command::Trace) options.render.view = View::Beauty;  // other views trace no paths
     if (line.command == Command::Reference) settle_reference(line, options);
@@ -231,7 +250,8 @@ std::string command_text(Command command, const Options& options, const Options&
         const std::string value = spec.print(options);
         if (value.empty() || value == spec.print(defaults)) continue;
         const std::string name = spec.name == "output" ? "-o" : "--" + std::string(spec.name);
-        text += fmt::format(" {} {}", name, shell_word(value));
+        std::istringstream lines(value);
+        for (std::string line; std::getline(lines, line);) text += fmt::format(" {} {}", name, shell_word(line));
     }
     return text;
 }

@@ -102,6 +102,7 @@ Json stats_json(const Session& session, const Snapshot& snapshot, const Options&
                {"seed", settings.seed},
                {"max_depth", settings.max_depth},
                {"nee", settings.next_event},
+               {"roulette", name_of(settings.roulette)},
                {"seconds", clocks_json(snapshot.clocks, {{"total", snapshot.clocks.total()}})},
                {"ended_by", name_of(outcome.ended_by)},
                {"target_error", target_json(target)}};

@@ -47,7 +47,7 @@ std::string emission_text(const EmissionRecord& emission) {
                        print_float(emission.light_pdf_sa), print_vector(emission.contribution));
 }
 
-std::string light_text(const LightRecord& light) {
+std::string light_text(const LightSampleRecord& light) {
     const std::string place = light.position
                                   ? fmt::format("{} on triangle {}", print_vector(*light.position), light.primitive)
                                   : std::string("far away");
@@ -95,7 +95,7 @@ Json emission_json(const EmissionRecord& emission) {
             {"contribution", vector_json(emission.contribution)}};
 }
 
-Json light_json(const LightRecord& light) {
+Json light_json(const LightSampleRecord& light) {
     return {{"position", light.position ? vector_json(*light.position) : Json()},
             {"triangle", light.position ? Json(light.primitive) : Json()},
             {"wi", vector_json(light.wi)},

@@ -2,6 +2,8 @@
 
 #include <vector>
 
+#include "cpu/lane_names.h"
+
 namespace pl {
 namespace {
 
@@ -17,6 +19,17 @@ std::vector<LaneKernels> find_usable_kernels() {
 }
 
 }  // namespace
+
+std::vector<std::string_view> compiled_lane_names() {
+    std::vector<std::string_view> names{kLaneKernelsBaseline.isa};
+#ifdef PL_LANE_CLONES
+    if (PL_WIDEST_LANES >= 1) names.emplace_back(kLaneKernelsAvx2.isa);
+    if (PL_WIDEST_LANES >= 2) names.emplace_back(kLaneKernelsAvx512.isa);
+#endif
+    return names;
+}
+
+std::string_view used_lane_name() { return best_lane_kernels().isa; }
 
 std::span<const LaneKernels> usable_lane_kernels() {
     static const std::vector<LaneKernels> usable = find_usable_kernels();

@@ -3,10 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
-#include "core/base/error.h"
+#include "app/choices.h"
 #include "core/inspect/incident_light.h"
 
 namespace pl {
@@ -15,7 +12,7 @@ namespace {
 void parse_drawn(Options& options, Text text) {
     constexpr std::array<std::string_view, 4> kNames{"disc", "lobe", "dome", "flowers"};
     if (std::ranges::find(kNames, text) == kNames.end())
-        throw Error(ErrorKind::Usage, fmt::format("expected {}, got '{}'", fmt::join(kNames, ", "), text));
+        fail_choice(names_in(kNames, [](std::string_view name) { return name; }), text);
     options.drawn = text;
 }
 
@@ -40,7 +37,7 @@ constexpr auto kComparisonOptions = std::to_array<OptionSpec>({
      .commands = CommandSet(Command::Trace), .parse = parse_flag<&Options::why>},
     {.name = "why-samples", .flags = "--why-samples", .value = "N", .group = kPlace,
      .help = "Paths by each method for --why, at least 256 (default 4096)",
-     .commands = CommandSet(Command::Trace),
+     .is_expert = true, .commands = CommandSet(Command::Trace),
      .parse = [](Options& o, Text text) { o.why_samples = static_cast<std::uint32_t>(parse_whole(text, 256, 100000000)); }},
     {.name = "truth", .flags = "--truth", .value = "", .group = kPlace,
      .help = "Also the light that reaches the volume, by paths of default from there: beside the learned radiance, with "
@@ -48,7 +45,7 @@ constexpr auto kComparisonOptions = std::to_array<OptionSpec>({
      .commands = CommandSet(Command::Inspect), .parse = parse_flag<&Options::truth>},
     {.name = "truth-samples", .flags = "--truth-samples", .value = "N", .group = kPlace,
      .help = "Paths through every cell for --truth, at least 32 (default 256)",
-     .commands = CommandSet(Command::Inspect),
+     .is_expert = true, .commands = CommandSet(Command::Inspect),
      .parse = [](Options& o, Text text) { o.truth_samples = static_cast<std::uint32_t>(parse_whole(text, kLightGroups, 1000000)); }},
     {.name = "history", .flags = "--history", .value = "", .group = kPlace,
      .help = "Key frames of the field: divergences from the light that reaches the volume, variance factor and "
@@ -59,7 +56,7 @@ constexpr auto kComparisonOptions = std::to_array<OptionSpec>({
      .commands = CommandSet(Command::Inspect), .parse = parse_drawn},
 
     {.name = "method", .flags = "--method", .value = "NAME", .group = kPicture,
-     .help = "Sampling of directions: default, precomputed, reinforcement (see --list-methods)",
+     .help = "Sampling of directions: default (unless given), precomputed or reinforcement; --list-methods explains them",
      .commands = kOneMethod, .in_scene_files = true, .parse = parse_method,
      .print = [](const Options& o) { return std::string(info_of(o.render.method).name); }},
     {.name = "method", .flags = "--method", .value = "NAME,..", .group = kCompared,
@@ -86,7 +83,7 @@ constexpr auto kComparisonOptions = std::to_array<OptionSpec>({
      .commands = CommandSet(Command::Bench), .parse = parse_text<&Options::reference_folder>},
     {.name = "reference-spp", .flags = "--reference-spp", .value = "N", .group = kCompared,
      .help = "Samples per pixel in each half of references made here (default 4096)",
-     .commands = CommandSet(Command::Bench),
+     .is_expert = true, .commands = CommandSet(Command::Bench),
      .parse = [](Options& o, Text text) {
          o.reference_spp = static_cast<std::uint32_t>(parse_whole(text, 1, 1000000000));
      }},
@@ -96,12 +93,12 @@ constexpr auto kComparisonOptions = std::to_array<OptionSpec>({
      .commands = CommandSet(Command::Bench), .parse = parse_text<&Options::gate>},
     {.name = "tolerance", .flags = "--tolerance", .value = "PERCENT", .group = kOutcome,
      .help = "Tolerance of the gate (default 10)",
-     .commands = CommandSet(Command::Bench),
+     .is_expert = true, .commands = CommandSet(Command::Bench),
      .parse = [](Options& o, Text text) { o.tolerance_percent = parse_real(text, 0.0, 1.0e6); }},
     {.name = "measure-share", .flags = "--measure-share", .value = "PERCENT", .group = kOutcome,
      .help = "Time for measuring, on top of and relative to the charged time (default 1); points of a run are "
              "left out to keep within it, except for the first and the last",
-     .commands = CommandSet(Command::Bench),
+     .is_expert = true, .commands = CommandSet(Command::Bench),
      .parse = [](Options& o, Text text) { o.measure_percent = parse_real(text, 0.0, 1.0e9); },
      .print = [](const Options& o) { return print_real(o.measure_percent); }},
 });

@@ -12,67 +12,66 @@ void refuse_save_field(Options&, const std::string&) {
 // clang-format off
 constexpr auto kFieldOptions = std::to_array<OptionSpec>({
     {.name = "field", .flags = "--field", .value = "NAME", .group = kField,
-     .help = "How reinforcement represents what it learns: table (default), cells of each radiance volume; sd-tree, quadtrees "
-             "over directions at the leaves of a binary tree over space; lobes, a mixture of von Mises-Fisher lobes in each "
-             "radiance volume; neural, tables with a network over all volumes as their prior; or neural-vertex, a network that gives "
-             "each vertex a mixture of lobes, taught by tables; sd-tree and lobes on the CPU alone",
+     .help = "How reinforcement represents what it learns: table (default), cells of directions in each radiance volume; sd-tree; "
+             "lobes, von Mises-Fisher mixtures; neural, tables with a network as their prior; neural-vertex, mixtures by a network. "
+             "sd-tree and lobes on the CPU alone",
      .commands = kSampling, .in_scene_files = true, .parse = parse_representation,
      .print = [](const Options& o) { return std::string(name_of(o.render.field.representation)); }},
     {.name = "iterations", .flags = "--iterations", .value = "NAME", .group = kField,
      .help = "Training samples that an SD-tree is built from: updates (default), all so far by the learning rate, or doubling, "
              "those of the last iteration alone, each twice as long as the one before",
-     .commands = kSampling, .in_scene_files = true, .parse = parse_iterations,
+     .is_expert = true, .commands = kSampling, .in_scene_files = true, .parse = parse_iterations,
      .print = [](const Options& o) { return std::string(name_of(o.render.field.iterations)); }},
     {.name = "volumes", .flags = "--volumes", .value = "N", .group = kField,
      .help = "Number of radiance volumes (default: what the budget holds, at most 1000)",
-     .commands = kPaths, .in_scene_files = true,
+     .is_expert = true, .commands = kPaths, .in_scene_files = true,
      .parse = [](Options& o, Text text) { o.render.field.volumes = static_cast<int>(parse_whole(text, 1, 1000000)); },
      .print = [](const Options& o) {
          return o.render.field.volumes == 0 ? "" : std::to_string(o.render.field.volumes);
      }},
     {.name = "field-budget", .flags = "--field-budget", .value = "MB", .group = kField,
      .help = "Memory of one method's learned field (default 16)",
-     .commands = kPaths, .in_scene_files = true, .parse = parse_field_budget,
+     .is_expert = true, .commands = kPaths, .in_scene_files = true, .parse = parse_field_budget,
      .print = [](const Options& o) { return print_real(o.render.field.budget_megabytes); }},
     {.name = "refine", .flags = "--refine", .value = "SHARE|auto", .group = kField,
      .help = "Volumes that reinforcement may add, as a share of those placed, 0 to 1: after 8 and 16 passes it "
              "divides volumes that many paths look up and whose neighbors disagree; within the budget, unless "
              "--volumes is given. auto (default): up to 1, also after 48, 96 and so on, as far as there are "
              "training samples enough for them; 0 with --volumes",
-     .commands = kPaths, .in_scene_files = true, .parse = parse_refine,
+     .is_expert = true, .commands = kPaths, .in_scene_files = true, .parse = parse_refine,
      .print = [](const Options& o) { return print_refine(o.render.field.refine_share); }},
     {.name = "bins", .flags = "--bins", .value = "N", .group = kField,
      .help = "Directions per volume, a square number from 4 to 1024 (default 256)",
-     .commands = kPaths, .in_scene_files = true, .parse = parse_bins,
+     .is_expert = true, .commands = kPaths, .in_scene_files = true, .parse = parse_bins,
      .print = [](const Options& o) { return std::to_string(o.render.field.bins); }},
     {.name = "probes", .flags = "--probes", .value = "N", .group = kField,
      .help = "Paths that fill each cell of the map of precomputed, a square number from 1 to 1024 (default 1); more pay in long runs",
-     .commands = kPaths, .in_scene_files = true, .parse = parse_probes,
+     .is_expert = true, .commands = kPaths, .in_scene_files = true, .parse = parse_probes,
      .print = [](const Options& o) { return std::to_string(o.render.field.precompute_samples); }},
     {.name = "bsdf-fraction", .flags = "--bsdf-fraction", .value = "X|learned", .group = kField,
      .help = "Share of directions sampled from the BSDF instead of the field, 0.1 to 1; learned (default): "
              "each volume learns its own, precomputed takes 0.5",
-     .commands = kPaths, .in_scene_files = true, .parse = parse_bsdf_fraction,
+     .is_expert = true, .commands = kPaths, .in_scene_files = true, .parse = parse_bsdf_fraction,
      .print = [](const Options& o) { return print_bsdf_fraction(o.render.mixture); }},
     {.name = "learning-rate", .flags = "--learning-rate", .value = "NAME", .group = kField,
      .help = "Step of an update: forgetful (default; early training samples lose their weight), mean "
              "(1/(1+visits)), power (n^-0.7), or floor (mean, but at least 0.05)",
-     .commands = kSampling, .in_scene_files = true, .parse = parse_learning_rate,
+     .is_expert = true, .commands = kSampling, .in_scene_files = true, .parse = parse_learning_rate,
      .print = [](const Options& o) { return std::string(name_of(o.render.field.rate)); }},
     {.name = "learn-target", .flags = "--learn-target", .value = "NAME", .group = kField,
      .help = "Target of reinforcement's training samples: expected-sarsa (default, mean over the next "
              "direction), sarsa (the next direction as sampled), or monte-carlo (the radiance that the path "
              "brings)",
-     .commands = kSampling, .in_scene_files = true, .parse = parse_learn_target,
+     .is_expert = true, .commands = kSampling, .in_scene_files = true, .parse = parse_learn_target,
      .print = [](const Options& o) { return std::string(name_of(o.render.field.learning.target)); }},
     {.name = "learn-from", .flags = "--learn-from", .value = "NAME", .group = kField,
      .help = "With next-event estimation, light in reinforcement's training samples: indirect (default), only "
              "light that light samples do not bring, or all",
-     .commands = kSampling, .in_scene_files = true, .parse = parse_learn_from,
+     .is_expert = true, .commands = kSampling, .in_scene_files = true, .parse = parse_learn_from,
      .print = [](const Options& o) { return std::string(name_of(o.render.field.learning.light)); }},
     {.name = "learn-passes", .flags = "--learn-passes", .value = "N", .group = kField,
      .help = "Passes that train the field of reinforcement; later ones sample from it as it is then (default: all train it)",
-     .commands = kSampling, .in_scene_files = true,
+     .is_expert = true, .commands = kSampling, .in_scene_files = true,
      .parse = [](Options& o, Text text) { o.render.learn_passes = parse_whole(text, 1, 1000000000); },
      .print = [](const Options& o) {
          return o.render.learn_passes == kEveryPass ? "" : std::to_string(o.render.learn_passes);
@@ -80,19 +79,19 @@ constexpr auto kFieldOptions = std::to_array<OptionSpec>({
     {.name = "lookup", .flags = "--lookup", .value = "NAME", .group = kField,
      .help = "Search for the volume of a point: grid (default), kdtree, or linear, which is slow; all find the "
              "same one",
-     .commands = kPaths, .parse = parse_lookup,
+     .is_expert = true, .commands = kPaths, .parse = parse_lookup,
      .print = [](const Options& o) { return std::string(lookup_name(o.render.field.lookup)); }},
     {.name = "load-field", .flags = "--load-field", .value = "FILE", .group = kField,
      .help = "Continue with a field that was saved for this scene: it brings method, volumes, bins and learned "
              "radiance. Timings count this run only. 'inspect' then trains only if --spp or --time-limit is "
              "given",
-     .commands = kSampling, .parse = parse_text<&Options::load_field>,
+     .is_expert = true, .commands = kSampling, .parse = parse_text<&Options::load_field>,
      .print = [](const Options& o) { return o.load_field; }},
     {.name = "save-field", .flags = "--save-field", .value = "FILE", .group = kField,
      .help = "Write the learned field, also when interrupted; a run that loads it continues exactly there",
-     .commands = kFiles, .parse = parse_text<&Options::save_field>},
+     .is_expert = true, .commands = kFiles, .parse = parse_text<&Options::save_field>},
     {.name = "save-field", .flags = "--save-field", .value = "FILE", .group = kHidden, .help = "",
-     .commands = CommandSet(Command::View), .parse = refuse_save_field},
+     .is_expert = true, .commands = CommandSet(Command::View), .parse = refuse_save_field},
 });
 // clang-format on
 

@@ -10,7 +10,7 @@ void parse_spp(Options& options, const std::string& text) {
 // clang-format off
 constexpr auto kLimitOptions = std::to_array<OptionSpec>({
     {.name = "spp", .flags = "--spp,--samples", .value = "N", .group = kStop,
-     .help = "Samples per pixel (default 64 unless another limit is given; the viewer has no limit by default)",
+     .help = "Samples per pixel (default 64 unless another limit is given; in the viewer none)",
      .commands = CommandSet(Command::View, Command::Render, Command::Inspect), .in_scene_files = true,
      .parse = parse_spp,
      .print = [](const Options& o) { return o.spp ? std::to_string(*o.spp) : ""; }},
@@ -69,7 +69,7 @@ constexpr auto kLimitOptions = std::to_array<OptionSpec>({
     {.name = "pixels-per-degree", .flags = "--pixels-per-degree", .value = "N", .group = kOutcome,
      .help = "With --flip, resolution of the display as the eye sees it (default 67: a 0.7 m wide 4K display "
              "from 0.7 m)",
-     .commands = CommandSet(Command::Compare),
+     .is_expert = true, .commands = CommandSet(Command::Compare),
      .parse = [](Options& o, Text text) { o.pixels_per_degree = parse_real(text, 1.0, 1000.0); }},
 });
 // clang-format on

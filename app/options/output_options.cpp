@@ -6,10 +6,13 @@ namespace {
 // clang-format off
 constexpr auto kOutputOptions = std::to_array<OptionSpec>({
     {.name = "output", .flags = "-o,--output,--outfile", .value = "FILE", .group = kOutput,
-     .help = "File to write; its suffix decides the kind: .exr and .pfm linear, .png tone mapped (inspect: "
-             ".json, .csv, .png)",
-     .commands = kFiles, .parse = parse_text<&Options::output>,
+     .help = "Picture to write; its suffix decides the kind: .exr and .pfm linear, .png tone mapped. -: a PNG to standard "
+             "output; exr:- and pfm:- likewise",
+     .commands = CommandSet(Command::Render), .parse = parse_text<&Options::output>,
      .print = [](const Options& o) { return o.output; }},
+    {.name = "output", .flags = "-o,--output,--outfile", .value = "FILE", .group = kOutput,
+     .help = "File to write; its suffix decides the kind: .json, .csv or .png",
+     .commands = CommandSet(Command::Inspect), .parse = parse_text<&Options::output>},
     {.name = "output", .flags = "-o,--output,--outfile", .value = "FILE", .group = kOutput,
      .help = "Also draw the paths as lines into this PNG, over the first surfaces",
      .commands = CommandSet(Command::Trace), .parse = parse_text<&Options::output>},
@@ -36,22 +39,22 @@ constexpr auto kOutputOptions = std::to_array<OptionSpec>({
     {.name = "checkpoint", .flags = "--checkpoint", .value = "FILE", .group = kOutput,
      .help = "Write the state of the rendering now and then, when it is interrupted, and at its end. The same command with "
              "--resume FILE goes on from there, to the same bits",
-     .commands = CommandSet(Command::Render), .parse = parse_text<&Options::checkpoint_file>},
+     .is_expert = true, .commands = CommandSet(Command::Render), .parse = parse_text<&Options::checkpoint_file>},
     {.name = "checkpoint-every", .flags = "--checkpoint-every", .value = "SECONDS", .group = kOutput,
      .help = "Least time between two checkpoints of a rendering (default 600)",
-     .commands = CommandSet(Command::Render), .parse = parse_checkpoint_interval},
+     .is_expert = true, .commands = CommandSet(Command::Render), .parse = parse_checkpoint_interval},
     {.name = "resume", .flags = "--resume", .value = "FILE", .group = kOutput,
      .help = "Go on from a checkpoint of the same scene, settings and back end; threads, processes and limits may differ",
-     .commands = CommandSet(Command::Render), .parse = parse_text<&Options::resume_file>},
+     .is_expert = true, .commands = CommandSet(Command::Render), .parse = parse_text<&Options::resume_file>},
     {.name = "diagnostics", .flags = "--diagnostics", .value = "FILE", .group = kOutput,
      .help = "Locate invalid samples, escaped paths, lookup misses and clamped training samples by tracing the "
              "paths again: .png marks their pixels in the picture, .exr and .pfm hold their counts per pixel; "
              "--stats has both as numbers",
-     .commands = CommandSet(Command::Render), .parse = parse_text<&Options::diagnostics_file>},
+     .is_expert = true, .commands = CommandSet(Command::Render), .parse = parse_text<&Options::diagnostics_file>},
     {.name = "gain", .flags = "--gain", .value = "FILE", .group = kOutput,
      .help = "Where a guided method gains or loses against default, tile by tile: renders default for the same time "
              "after the picture, and compares their noise. .json: numbers; .png: the picture with a mark for each tile",
-     .commands = CommandSet(Command::Render), .parse = parse_text<&Options::gain_file>},
+     .is_expert = true, .commands = CommandSet(Command::Render), .parse = parse_text<&Options::gain_file>},
 });
 // clang-format on
 

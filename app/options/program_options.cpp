@@ -11,13 +11,13 @@ constexpr auto kProgramOptions = std::to_array<OptionSpec>({
     {.name = "quiet", .flags = "-q,--quiet", .value = "", .group = kMessages, .help = "Errors only",
      .commands = kEverywhere, .parse = parse_flag<&Options::quiet>},
     {.name = "verbose", .flags = "-v,--verbose", .value = "", .group = kMessages, .help = "More messages",
-     .commands = kEverywhere, .parse = [](Options& o, Text) { ++o.verbosity; }},
+     .is_expert = true, .commands = kEverywhere, .parse = [](Options& o, Text) { ++o.verbosity; }},
     {.name = "log-file", .flags = "--log-file", .value = "FILE", .group = kMessages,
      .help = "Append all messages to a file as well",
-     .commands = kEverywhere, .parse = parse_text<&Options::log_file>},
+     .is_expert = true, .commands = kEverywhere, .parse = parse_text<&Options::log_file>},
     {.name = "no-progress", .flags = "--no-progress", .value = "", .group = kMessages,
      .help = "No progress bar, no progress lines",
-     .commands = kWorking, .parse = parse_flag<&Options::no_progress>},
+     .is_expert = true, .commands = kWorking, .parse = parse_flag<&Options::no_progress>},
     {.name = "headless", .flags = "--headless,--no-gui", .value = "", .group = kHidden, .help = "",
      .commands = kHeadless, .parse = [](Options&, Text) {}},
 
@@ -29,16 +29,16 @@ constexpr auto kProgramOptions = std::to_array<OptionSpec>({
     {.name = "remember", .flags = "--remember", .value = "FOLDER|off", .group = kViewer,
      .help = "Where the window's size, layout and displays are remembered (default: the system's folder for "
              "settings; off with --script)",
-     .commands = CommandSet(Command::View), .parse = parse_remember},
+     .is_expert = true, .commands = CommandSet(Command::View), .parse = parse_remember},
     {.name = "software", .flags = "--software", .value = "", .group = kViewer,
      .help = "Draw the window without a graphics card",
      .commands = CommandSet(Command::View), .parse = parse_flag<&Options::software>},
     {.name = "script", .flags = "--script", .value = "FILE", .group = kViewer,
      .help = "Feed the window with input from a file; needs no display",
-     .commands = CommandSet(Command::View), .parse = parse_text<&Options::script>},
+     .is_expert = true, .commands = CommandSet(Command::View), .parse = parse_text<&Options::script>},
     {.name = "ui-trace", .flags = "--ui-trace", .value = "FILE", .group = kViewer,
      .help = "Write the time of every frame of the window",
-     .commands = CommandSet(Command::View), .parse = parse_text<&Options::ui_trace>},
+     .is_expert = true, .commands = CommandSet(Command::View), .parse = parse_text<&Options::ui_trace>},
 });
 // clang-format on
 

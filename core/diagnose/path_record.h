@@ -42,7 +42,7 @@ struct EmissionRecord {
 };
 
 /// A light sample at a vertex. Densities per steradian.
-struct LightRecord {
+struct LightSampleRecord {
     Vec3f wi{0.0f};
     std::optional<Vec3f> position{};         ///< on the light; none if it is infinitely far away
     std::uint32_t primitive = kNoPrimitive;  ///< of the light, likewise
@@ -94,7 +94,7 @@ struct VertexRecord {
     std::int32_t volume = kNoVolume;  ///< that serves the vertex
     float bsdf_fraction = 1.0f;       ///< a, the probability of BSDF sampling; 1 if no field serves the vertex
     EmissionRecord emission{};
-    std::optional<LightRecord> light{};        ///< none if no light was sampled, or none that can contribute
+    std::optional<LightSampleRecord> light{};  ///< none if no light was sampled, or none that can contribute
     std::optional<RouletteRecord> roulette{};  ///< none where the path ended before
     std::vector<ScatterRecord> scattered{};    ///< more than one if the path was split here
 

@@ -15,12 +15,12 @@ constexpr FeatureSet kAll = kEveryFeature;
 /// Traces a path segment by segment. The state before a segment and the kernel's functions give the vertex at its end; the state
 /// behind it, the direction that follows.
 template <Method M>
-class Recorder {
+class PathRecorder {
 public:
     using State = PathState<kAll, M>;
 
     /// `choices` are those that the method notes.
-    Recorder(const PathContext<M>& context, ObservedChoices& choices)
+    PathRecorder(const PathContext<M>& context, ObservedChoices& choices)
         : scene_(context.scene), method_(context.method), context_(context), choices_(choices) {}
 
     PathRecord run(State& state) {
@@ -157,10 +157,10 @@ private:
         return next.branches == 0 ? std::optional(PathEnd::Roulette) : std::nullopt;
     }
 
-    std::optional<LightRecord> light_sample(const Point& point, Vec4f u, const State& before) const {
+    std::optional<LightSampleRecord> light_sample(const Point& point, Vec4f u, const State& before) const {
         const UnweightedLight light = sample_light(context_, point, u, received_weights(before));
         if (!(light.pdf_sa > 0.0f)) return std::nullopt;
-        LightRecord record{.wi = light.wi, .primitive = light.ray.target, .pdf_sa = light.pdf_sa};
+        LightSampleRecord record{.wi = light.wi, .primitive = light.ray.target, .pdf_sa = light.pdf_sa};
         if (record.primitive != kNoPrimitive)
             record.position = light.ray.origin + light.ray.t_max * light.ray.direction;
         record.scatter_pdf_sa = scatter_pdf_sa(method_, point, light.wi);
@@ -265,7 +265,7 @@ PathRecord record_path(const PassReplay& passes, const AnyFieldView& field, std:
         const M observed(method, choices);
         auto state = begin_path<kAll, M>(passes.camera, path, grid, pixel);
         const SampledScene sampled = with_delta_lights(passes.scene->view(), path);
-        return Recorder<M>({sampled.scene, observed, sampled.path}, choices).run(state);
+        return PathRecorder<M>({sampled.scene, observed, sampled.path}, choices).run(state);
     };
     PathRecord record = with_replayed_method<ObservedGuided>(passes, field, sample, trace);
     record.is_guided = is_guided_path(passes, sample);

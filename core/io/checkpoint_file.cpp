@@ -17,9 +17,9 @@ constexpr SealedKind kCheckpointKind{.magic = "PLCHECK\n", .version = 6, .title 
 /// transfer(), also for the kinds of values that only checkpoints hold. Each works for writing, with constant values, and for
 /// reading.
 template <class Stream>
-class Layout {
+class CheckpointLayout {
 public:
-    explicit Layout(Stream& stream) : stream_(stream) {}
+    explicit CheckpointLayout(Stream& stream) : stream_(stream) {}
 
     template <class... Values>
     void all(Values&... values) {
@@ -151,7 +151,7 @@ void transfer_placement(Stream& stream, Placement& placement, Volumes& volumes) 
 
 template <class Stream, class Content>
 void transfer_content(Stream& stream, Content& checkpoint) {
-    Layout layout(stream);
+    CheckpointLayout layout(stream);
     auto& state = checkpoint.state;
     layout.one(checkpoint.seconds);
     layout.each(state.identity, [&](auto& entry) { layout.all(entry.first, entry.second); });

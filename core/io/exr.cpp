@@ -244,23 +244,25 @@ private:
 
 }  // namespace
 
-void write_exr(const std::filesystem::path& path, const LinearImage& image, const ImageMetadata& metadata,
-               ExrNumbers numbers) {
-    require_complete(path, image.width, image.height, image.pixels.size(), 1);
+std::string encode_exr(const LinearImage& image, const ImageMetadata& metadata, ExrNumbers numbers) {
     const bool is_half = numbers == ExrNumbers::Half;
-    std::string bytes;
     try {
         Imf::Header header(image.width, image.height);
         header.compression() = Imf::ZIP_COMPRESSION;
         for (const char* name : kColors)
             header.channels().insert(name, Imf::Channel(is_half ? Imf::HALF : Imf::FLOAT));
         for (const auto& [name, value] : metadata) header.insert(name, Imf::StringAttribute(value));
-        bytes = is_half ? encode<half>(header, image, Imf::HALF, to_half)
-                        : encode<float>(header, image, Imf::FLOAT, [](float value) { return value; });
+        return is_half ? encode<half>(header, image, Imf::HALF, to_half)
+                       : encode<float>(header, image, Imf::FLOAT, [](float value) { return value; });
     } catch (const Iex::BaseExc& error) {
-        throw Error(ErrorKind::Runtime, fmt::format("{}: cannot be written: {}", path.string(), error.what()));
+        throw Error(ErrorKind::Runtime, fmt::format("the EXR encoder failed: {}", error.what()));
     }
-    write_file_atomic(path, bytes);
+}
+
+void write_exr(const std::filesystem::path& path, const LinearImage& image, const ImageMetadata& metadata,
+               ExrNumbers numbers) {
+    require_complete(path, image.width, image.height, image.pixels.size(), 1);
+    write_file_atomic(path, encode_exr(image, metadata, numbers));
 }
 
 LinearImage decode_exr(const std::string& bytes, const LinearSettings& settings) {

@@ -71,12 +71,19 @@ enum class ExrNumbers {
 /// EXR, losslessly compressed. Metadata become attributes of type string; names are cut to 255 bytes.
 void write_exr(const std::filesystem::path& path, const LinearImage& image, const ImageMetadata& metadata = {},
                ExrNumbers numbers = ExrNumbers::Float);
+/// The bytes of the file. Throws Error(Runtime) if the encoder fails.
+std::string encode_exr(const LinearImage& image, const ImageMetadata& metadata = {},
+                       ExrNumbers numbers = ExrNumbers::Float);
 
 /// PFM with little-endian floats; no metadata.
 void write_pfm(const std::filesystem::path& path, const LinearImage& image);
+/// The bytes of the file.
+std::string encode_pfm(const LinearImage& image);
 
 /// PNG. Metadata become tEXt chunks; names are cut to 79 bytes, the limit of PNG.
 void write_png8(const std::filesystem::path& path, const ByteImage& image, const ImageMetadata& metadata = {});
+/// The bytes of the file. Throws Error(Runtime) if the encoder fails.
+std::string encode_png8(const ByteImage& image, const ImageMetadata& metadata = {});
 
 /// The value of the first entry with this name; empty if there is none.
 std::string text_of(const ImageMetadata& metadata, const std::string& name);
@@ -116,9 +123,6 @@ LinearImage read_exr(const std::filesystem::path& path, ImageMetadata* metadata 
 
 /// decode_pfm() of a file.
 LinearImage read_pfm(const std::filesystem::path& path);
-
-/// The bytes of a PNG file. Throws Error(Runtime) if the encoder fails.
-std::string encode_png8(const ByteImage& image);
 
 ByteImage read_png8(const std::filesystem::path& path, ImageMetadata* metadata = nullptr);
 

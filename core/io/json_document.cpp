@@ -6,7 +6,6 @@
 #include <limits>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "core/io/line_reader.h"
 #include "core/io/nearest_name.h"
@@ -197,9 +196,7 @@ const json* JsonDocument::object(const std::string& pointer, const std::vector<s
     }
     for (const auto& [key, member] : value->items()) {
         if (std::find(known_keys.begin(), known_keys.end(), key) == known_keys.end()) {
-            fail(pointer + pointer_step(key),
-                 fmt::format("unknown key, did you mean '{}'? Known are: {}", nearest_name(key, known_keys),
-                             fmt::join(known_keys, ", ")));
+            fail(pointer + pointer_step(key), "unknown key" + known_names(key, known_keys));
         }
     }
     return value;

@@ -7,7 +7,6 @@
 #include <system_error>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "core/base/error.h"
 #include "core/io/emitting_meshes.h"
@@ -50,7 +49,7 @@ SceneDescription load_file(const fs::path& path, const LoadSettings& asked) {
         return load_scene_json(path, asked);
     }
     if (suffix_of(path) == ".xml") {
-        SceneDescription scene = load_mitsuba(path, asked.most_copied_triangles);
+        SceneDescription scene = load_mitsuba(path, asked);
         scene.name = path.stem().string();
         scene.up = asked.up_axis ? up_direction(*asked.up_axis, scene) : scene.up;
         if (scene.cameras.empty()) {
@@ -129,9 +128,7 @@ void warn_of_missing_uvs(SceneDescription& scene) {
                 name));
     }
     const std::vector<std::string> known = list_scenes(assets_dir);
-    const std::string hint = known.empty() ? ""
-                                           : fmt::format(", did you mean '{}'? Known are: {}",
-                                                         nearest_name(name, known), fmt::join(known, ", "));
+    const std::string hint = known.empty() ? "" : known_names(name, known);
     throw Error(ErrorKind::Input, fmt::format("no scene '{}'{}", name, hint));
 }
 
@@ -144,6 +141,11 @@ SceneDescription load_scene(const std::string& name_or_path, const fs::path& ass
     const fs::path path = is_path ? fs::path(name_or_path) : scene_file(assets_dir, name_or_path);
     if (!is_path && !(is_name && is_file(path))) {
         fail_unknown(name_or_path, assets_dir);
+    }
+    if (!asked.parameters.empty() && suffix_of(path) != ".xml") {
+        throw Error(ErrorKind::Usage,
+                    fmt::format("-D {}: expected a Mitsuba scene, a .xml, which alone has $parameters; got {}",
+                                asked.parameters.front().first, path.string()));
     }
     SceneDescription scene = load_file(path, asked);
     choose_camera(asked.camera, scene);

@@ -66,8 +66,7 @@ float swap_bytes(float number) {
 
 }  // namespace
 
-void write_pfm(const std::filesystem::path& path, const LinearImage& image) {
-    require_complete(path, image.width, image.height, image.pixels.size(), 1);
+std::string encode_pfm(const LinearImage& image) {
     std::string bytes = fmt::format("PF\n{} {}\n-1.0\n", image.width, image.height);
     const std::size_t start = bytes.size();
     const std::size_t row = static_cast<std::size_t>(image.width) * sizeof(glm::vec3);
@@ -77,7 +76,12 @@ void write_pfm(const std::filesystem::path& path, const LinearImage& image) {
         const glm::vec3* const from = image.pixels.data() + (rows - 1 - y) * static_cast<std::size_t>(image.width);
         std::memcpy(bytes.data() + start + y * row, from, row);
     }
-    write_file_atomic(path, bytes);
+    return bytes;
+}
+
+void write_pfm(const std::filesystem::path& path, const LinearImage& image) {
+    require_complete(path, image.width, image.height, image.pixels.size(), 1);
+    write_file_atomic(path, encode_pfm(image));
 }
 
 LinearImage decode_pfm(std::string_view bytes, const LinearSettings& settings) {

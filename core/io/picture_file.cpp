@@ -41,18 +41,16 @@ ByteImage display_image(const Snapshot& snapshot, const DisplaySettings& display
     return image;
 }
 
+std::string encode_picture(ImageKind kind, const Snapshot& snapshot, const DisplaySettings& display,
+                           const ImageMetadata& metadata) {
+    if (kind == ImageKind::Png) return encode_png8(display_image(snapshot, display), metadata);
+    const LinearImage image{.width = snapshot.width, .height = snapshot.height, .pixels = snapshot.pixels};
+    return kind == ImageKind::Exr ? encode_exr(image, metadata) : encode_pfm(image);
+}
+
 void save_picture(const fs::path& path, const Snapshot& snapshot, const DisplaySettings& display,
                   const ImageMetadata& metadata) {
-    const ImageKind kind = image_kind(path);
-    if (kind == ImageKind::Png) {
-        write_png8(path, display_image(snapshot, display), metadata);
-        return;
-    }
-    const LinearImage image{.width = snapshot.width, .height = snapshot.height, .pixels = snapshot.pixels};
-    if (kind == ImageKind::Exr)
-        write_exr(path, image, metadata);
-    else
-        write_pfm(path, image);
+    write_file_atomic(path, encode_picture(image_kind(path), snapshot, display, metadata));
 }
 
 void require_writable(const fs::path& path) {

@@ -13,6 +13,11 @@ namespace pl {
 /// only: views of data, such as normals, are shown as they are, and heat maps in the colors of heat_color().
 ByteImage display_image(const Snapshot& snapshot, const DisplaySettings& display);
 
+/// The bytes of a file of this kind: EXR or PFM linear, PNG as display_image(). PFM has no metadata. Throws Error(Runtime) if the
+/// encoder fails.
+std::string encode_picture(ImageKind kind, const Snapshot& snapshot, const DisplaySettings& display,
+                           const ImageMetadata& metadata);
+
 /// Writes .exr or .pfm linear, .png as display_image(). Throws Error: Usage for another suffix, Runtime.
 void save_picture(const std::filesystem::path& path, const Snapshot& snapshot, const DisplaySettings& display,
                   const ImageMetadata& metadata);

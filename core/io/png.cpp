@@ -79,24 +79,23 @@ void append_bytes(void* to, void* data, int size) {
 
 }  // namespace
 
-std::string encode_png8(const ByteImage& image) {
+std::string encode_png8(const ByteImage& image, const ImageMetadata& metadata) {
     std::string bytes;
     if (stbi_write_png_to_func(append_bytes, &bytes, image.width, image.height, 3, image.rgb.data(),
                                image.width * 3) == 0 ||
         bytes.size() < kHeaderEnd) {
         throw Error(ErrorKind::Runtime, "the PNG encoder failed");
     }
-    return bytes;
-}
-
-void write_png8(const std::filesystem::path& path, const ByteImage& image, const ImageMetadata& metadata) {
-    require_complete(path, image.width, image.height, image.rgb.size(), 3);
-    std::string bytes = encode_png8(image);
     std::string chunks;
     for (const auto& [keyword, text] : metadata) {
         chunks += text_chunk(keyword, text);
     }
-    write_file_atomic(path, bytes.insert(kHeaderEnd, chunks));
+    return bytes.insert(kHeaderEnd, chunks);
+}
+
+void write_png8(const std::filesystem::path& path, const ByteImage& image, const ImageMetadata& metadata) {
+    require_complete(path, image.width, image.height, image.rgb.size(), 3);
+    write_file_atomic(path, encode_png8(image, metadata));
 }
 
 ByteImage read_png8(const std::filesystem::path& path, ImageMetadata* metadata) {

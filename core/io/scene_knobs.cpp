@@ -7,7 +7,6 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "core/base/error.h"
@@ -21,7 +20,7 @@ namespace {
 constexpr double kRadiansPerDegree = 0.017453292519943295;
 
 /// The vertices and normals of some groups, as flags.
-struct Selection {
+struct MeshSelection {
     std::vector<bool> vertices;
     std::vector<bool> normals;
 };
@@ -35,7 +34,7 @@ public:
 
     void move(const std::string& at) {
         file_.object(at, {"groups", "by"});
-        const Selection what = select(at);
+        const MeshSelection what = select(at);
         const glm::dvec3 step = turned() * required(at, "by");
         apply(
             what, [&](const glm::dvec3& p) { return p + step; }, [](const glm::dvec3& n) { return n; });
@@ -43,7 +42,7 @@ public:
 
     void turn(const std::string& at) {
         file_.object(at, {"groups", "about", "axis", "by_deg"});
-        const Selection what = select(at);
+        const MeshSelection what = select(at);
         const glm::dvec3 about = required(at, "about", &JsonDocument::point);
         const glm::dvec3 axis = required(at, "axis");
         const std::optional<float> by_deg = file_.number(at + "/by_deg");
@@ -62,7 +61,7 @@ public:
 
     void scale(const std::string& at) {
         file_.object(at, {"groups", "about", "by"});
-        const Selection what = select(at);
+        const MeshSelection what = select(at);
         const glm::dvec3 about = required(at, "about", &JsonDocument::point);
         const glm::dvec3 by = required(at, "by");
         for (const float end : {knob_.low, knob_.high}) {
@@ -93,7 +92,7 @@ private:
         return glm::dvec3(*value);
     }
 
-    Selection select(const std::string& at) const {
+    MeshSelection select(const std::string& at) const {
         const auto names = file_.texts(at + "/groups");
         if (!names) {
             file_.fail(at.substr(0, at.rfind('/')), "expected objects { ... } with 'groups'");
@@ -102,13 +101,13 @@ private:
         for (const std::string& name : *names) {
             const auto found = std::find(groups_.names.begin(), groups_.names.end(), name);
             if (found == groups_.names.end()) {
-                file_.fail(at + "/groups", fmt::format("the mesh has no group {}, did you mean '{}'?",
-                                                       in_quotes(name), nearest_name(name, groups_.names)));
+                file_.fail(at + "/groups", fmt::format("the mesh has no group {}{}", in_quotes(name),
+                                                       did_you_mean(name, groups_.names)));
             }
             moved[static_cast<std::size_t>(found - groups_.names.begin())] = true;
         }
-        Selection what{.vertices = std::vector<bool>(scene_.positions.size(), false),
-                       .normals = std::vector<bool>(scene_.normals.size(), false)};
+        MeshSelection what{.vertices = std::vector<bool>(scene_.positions.size(), false),
+                           .normals = std::vector<bool>(scene_.normals.size(), false)};
         for_corners(moved, true, [&](std::uint32_t, std::uint32_t vertex, std::uint32_t normal) {
             what.vertices[vertex] = true;
             if (normal != TriangleDescription::kNoNormal) what.normals[normal] = true;
@@ -136,7 +135,7 @@ private:
 
     /// Skipped for a knob at its default, where rounding would change bits.
     template <typename Point, typename Normal>
-    void apply(const Selection& what, Point&& point, Normal&& normal) {
+    void apply(const MeshSelection& what, Point&& point, Normal&& normal) {
         if (knob_.value == knob_.default_value) return;
         for (std::size_t i = 0; i < scene_.positions.size(); ++i)
             if (what.vertices[i]) scene_.positions[i] = glm::vec3(point(glm::dvec3(scene_.positions[i])));
@@ -246,11 +245,8 @@ void require_known_knobs(const SceneDescription& scene, const KnobValues& asked)
     for (const KnobDescription& knob : scene.knobs) known.push_back(knob.name);
     for (const auto& [name, value] : asked) {
         if (std::find(known.begin(), known.end(), name) != known.end()) continue;
-        const std::string hint = known.empty() ? "it has none"
-                                               : fmt::format("nearest: '{}'; known: {}", nearest_name(name, known),
-                                                             fmt::join(known, ", "));
-        throw Error(ErrorKind::Usage,
-                    fmt::format("--knob {}: {} has no such knob ({})", name, scene.source.string(), hint));
+        throw Error(ErrorKind::Usage, fmt::format("--knob {}: {} has no such knob{}", name, scene.source.string(),
+                                                  known.empty() ? ": it has none" : known_names(name, known)));
     }
 }
 

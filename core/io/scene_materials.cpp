@@ -68,7 +68,7 @@ std::uint32_t find_material(const JsonDocument& file, const SceneDescription& sc
         }
         names.push_back(scene.materials[i].name);
     }
-    file.fail(pointer, fmt::format("the scene has no such material, did you mean '{}'?", nearest_name(name, names)));
+    file.fail(pointer, "the scene has no such material" + did_you_mean(name, names));
 }
 
 void read_surface(const JsonDocument& file, const std::string& at, MaterialDescription& material) {

@@ -58,13 +58,13 @@ struct Cone {
 };
 
 /// Bounds of a set of lights.
-struct LightBounds {
+struct GatheredBounds {
     Vec3d low{std::numeric_limits<double>::infinity()};
     Vec3d high{-std::numeric_limits<double>::infinity()};
     Cone cone;
     double power = 0.0;
 
-    void add(const LightBounds& other) {
+    void add(const GatheredBounds& other) {
         if (other.power == 0.0) return;
         if (power == 0.0) {
             *this = other;
@@ -88,14 +88,14 @@ struct LightBounds {
 };
 
 struct LightItem {
-    LightBounds bounds{};
+    GatheredBounds bounds{};
     std::uint32_t light = 0;
     double area = 0.0;
 };
 
 /// Lights that share corners: one lamp.
 struct Lamp {
-    LightBounds bounds{};
+    GatheredBounds bounds{};
     std::vector<LightItem> lights{};
 };
 
@@ -109,7 +109,7 @@ struct LightBinning {
     double low;
     double scale;
 
-    int operator()(const LightBounds& bounds) const {
+    int operator()(const GatheredBounds& bounds) const {
         return std::min(static_cast<int>((bounds.center()[axis] - low) * scale), kBins - 1);
     }
 };
@@ -132,7 +132,7 @@ private:
     template <class Item>
     void add_node(std::span<Item> items, int level, std::uint64_t trail) {
         if (items.size() == 1) return add_leaf(items.front(), level, trail);
-        LightBounds bounds;
+        GatheredBounds bounds;
         for (const Item& item : items) bounds.add(item.bounds);
         const std::size_t node = packed_.light_nodes.size();
         packed_.light_nodes.push_back(packed_node(bounds));
@@ -152,7 +152,7 @@ private:
 
     /// Partitions lights or lamps between two children, neither of them empty; returns the begin of the second.
     template <class Item>
-    static std::size_t partition(std::span<Item> items, int level, const LightBounds& bounds) {
+    static std::size_t partition(std::span<Item> items, int level, const GatheredBounds& bounds) {
         const LightSplit split = level < kMostUnevenLevels ? best_split<Item>(items) : LightSplit{};
         if (split.bin >= 0)
             return static_cast<std::size_t>(
@@ -189,10 +189,10 @@ private:
 
     template <class Item>
     static void best_on_axis(const LightBinning& binning, std::span<const Item> items, LightSplit& best) {
-        std::array<LightBounds, kBins> bins;
+        std::array<GatheredBounds, kBins> bins;
         for (const Item& item : items) bins[static_cast<std::size_t>(binning(item.bounds))].add(item.bounds);
         std::array<double, kBins> above{};  // cost of all bins above
-        LightBounds sum;
+        GatheredBounds sum;
         for (std::size_t i = kBins - 1; i > 0; --i) {
             sum.add(bins[i]);
             above[i - 1] = sum.cost();
@@ -206,7 +206,7 @@ private:
         }
     }
 
-    static LightNode packed_node(const LightBounds& bounds) {
+    static LightNode packed_node(const GatheredBounds& bounds) {
         const Vec3f center{bounds.center()};
         // Around the rounded center, and rounded up.
         const Vec3d far = glm::max(glm::abs(bounds.high - Vec3d{center}), glm::abs(bounds.low - Vec3d{center}));

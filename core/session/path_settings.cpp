@@ -41,11 +41,14 @@ PathSettings path_settings(const RenderSettings& settings, MethodId method) {
     const bool is_guided = info_of(method).uses_field;
     float threshold = settings.next_event ? kLightSampledRouletteThreshold : kGuidedRouletteThreshold;
     if (settings.roulette == RouletteRule::Field) threshold = kFieldRouletteThreshold;
+    const bool has_roulette = settings.roulette != kNoRoulette;
+    const auto depth = static_cast<std::uint32_t>(settings.max_depth);
     return {.seed = settings.seed,
-            .max_depth = static_cast<std::uint32_t>(settings.max_depth),
+            .max_depth = depth,
+            .roulette_start = has_roulette ? PathSettings{}.roulette_start : depth + 1,
             .roulette_threshold = is_guided ? threshold : 1.0f,
             .split_threshold = splits_paths(settings, method) ? kSplitThreshold : kInfinity,
-            .roulette = settings.roulette,
+            .roulette = has_roulette ? settings.roulette : RouletteRule::Albedo,
             .next_event = settings.next_event ? 1u : 0u};
 }
 

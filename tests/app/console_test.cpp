@@ -7,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/io/image.h"
 #include "tests/app/stats_keys.h"
 #include "tests/support/catch.hpp"
 #include "tests/support/program/run_program.h"
@@ -49,6 +50,46 @@ private:
 };
 
 }  // namespace
+
+TEST_CASE("a picture goes to standard output alone") {
+    const TempDir folder;
+    const auto render = [](const std::string& output, const Arguments& more = {}) {
+        Arguments arguments{"render", "cornell", "-o",       output,        "--size",    "8x8",
+                            "--spp",  "2",       "--method", "precomputed", "--volumes", "20"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return arguments;
+    };
+    for (const auto& [output, suffix] :
+         {std::pair<std::string, std::string>{"pfm:-", "pfm"}, {"-", "png"}, {"png:-", "png"}, {"exr:-", "exr"}}) {
+        const ProgramResult piped = run_program(render(output, {"--gain", folder / "g.json"}));
+        CAPTURE(output, piped.err);
+        CHECK(piped.code == 0);
+        CHECK_THAT(piped.err, contains("8x8, precomputed") && contains("g.json: "));
+        const std::string file = folder / ("x." + suffix);
+        REQUIRE(run_program(render(file)).code == 0);
+        // Metadata have the time of the rendering, and the command.
+        if (suffix == "pfm") CHECK(piped.out == read_all(file));
+        write_all(folder / ("piped." + suffix), piped.out);
+        if (suffix == "png")
+            CHECK(read_png8(folder / "piped.png").rgb == read_png8(file).rgb);
+        else
+            CHECK(read_linear(folder / ("piped." + suffix)).pixels == read_linear(file).pixels);
+    }
+    CHECK(run_program(render("-", {"-q"})).err.empty());
+    const ProgramResult events = run_program(render("-", {"--json"}));
+    CHECK(events.code == 2);
+    CHECK_THAT(events.err, contains("-o -: expected a file with --json"));
+    const Terminal terminal;
+    const ProgramResult shown = run_program(render("exr:-"), {.output_device = terminal.device()});
+    CHECK(shown.code == 2);
+    CHECK_THAT(shown.err, contains("-o exr:-: expected standard output to be a pipe or a file, got a terminal"));
+    CHECK(terminal.text().empty());
+    const ProgramResult full = run_program(render("-"), {.output_device = "/dev/full"});
+    CHECK(full.code == 1);
+    CHECK_THAT(full.err, contains("standard output"));
+    // Only `render` writes pictures there.
+    CHECK(run_program({"inspect", "cornell", "--pixel", "4,7", "-o", "-", "--size", "8x8"}).code == 2);
+}
 
 TEST_CASE("events are lines of JSON on standard output and nothing else is") {
     const TempDir folder;

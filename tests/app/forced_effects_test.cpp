@@ -11,7 +11,8 @@ using nlohmann::json;
 
 json stats_of(const TempDir& folder, const std::string& scene, const Arguments& more) {
     Arguments arguments{"render", scene,    "--size", "24x24", "--spp",          "2",       "--volumes",
-                        "40",     "--bins", "16",     "-o",    folder / "a.pfm", "--stats", folder / "s.json", "--nee", "off"};
+                        "40",     "--bins", "16",     "-o",    folder / "a.pfm", "--stats", folder / "s.json",
+                        "--nee",  "off"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     const ProgramResult result = run_program(arguments);
     CAPTURE(result.err);
@@ -58,9 +59,11 @@ TEST_CASE("info says which effects a scene needs, and why") {
 
 TEST_CASE("bench --effects holds every larger kernel against the needed one") {
     const TempDir folder;
-    const ProgramResult result = run_program({"bench", "cornell", "spheres", "--effects", "--method",
-                                              "default,reinforcement", "--nee", "off", "--backend", "cpu", "--size", "16x16",
-                                              "--seeds", "3", "--volumes", "40", "--bins", "16", "-o", folder / "e"});
+    const ProgramResult result =
+        run_program({"bench",   "cornell",   "spheres",   "--effects", "--method", "default,reinforcement",
+                     "--nee",   "off",       "--backend", "cpu",       "--size",   "16x16",
+                     "--seeds", "3",         "--volumes", "40",        "--bins",   "16",
+                     "-o",      folder / "e"});
     CAPTURE(result.err);
     REQUIRE(result.code == 0);
     const json effects = json::parse(read_all(folder / "e/effects.json"));

@@ -19,11 +19,13 @@ Arguments render(const std::string& scene, const std::string& output, const Argu
 
 TEST_CASE("0: questions are answered on standard output") {
     for (const Arguments& question : std::vector<Arguments>{{"--help"},
+                                                            {"help", "bench"},
                                                             {"--version"},
                                                             {"--list-methods"},
                                                             {"--list-views"},
                                                             {"--licenses"},
                                                             {"render", "--help"},
+                                                            {"view", "--help-all"},
                                                             {"devices"}}) {
         const ProgramResult result = run_program(question);
         CAPTURE(question, result.err);
@@ -31,6 +33,20 @@ TEST_CASE("0: questions are answered on standard output") {
         CHECK_FALSE(result.out.empty());
         CHECK(result.err.empty());
     }
+}
+
+TEST_CASE("0: examples of the help that need no files of their own work") {
+    const TempDir folder;
+    std::size_t run = 0;
+    for (const char* command : {"info", "devices", "convert", "selftest"})
+        for (const std::string& line : lines_of(run_program({command, "--help"}).out)) {
+            if (!line.starts_with("  pathlight ") || line.find(".xml") != std::string::npos) continue;
+            const ProgramResult result = run_shell(line, {.folder = folder.path()});
+            CAPTURE(line, result.err);
+            CHECK(result.code == 0);
+            ++run;
+        }
+    CHECK(run == 11);
 }
 
 TEST_CASE("names in files do not speak to the terminal") {
@@ -149,12 +165,12 @@ TEST_CASE("2: usage") {
         std::string message;
     };
     const std::vector<Wrong> wrongs{
-        {{"rendr"}, "nearest: 'render'"},
+        {{"rendr"}, "did you mean 'render'?"},
         {{"reference", "cornell"}, "needs a folder to write to"},
         {{"bench", "cornell"}, "needs a folder to write to"},
         {{"compare", "a.exr"}, "needs two pictures"},
         {{"report"}, "needs one folder"},
-        {render("cornell", folder / "x.png", {"--expsure", "1"}), "nearest: '--exposure'"},
+        {render("cornell", folder / "x.png", {"--expsure", "1"}), "did you mean '--exposure'?"},
         {render("cornell", folder / "x.png", {"--spp", "-1"}), "--spp: expected"},
         {render("cornell", folder / "x.png", {"--view", "radiance-map"}), "precomputed or reinforcement"},
         {render("cornell", folder / "x.png", {"--target-error", "0"}), "--target-error: expected"},
@@ -162,6 +178,12 @@ TEST_CASE("2: usage") {
          "expected --view beauty"},
         {render("cornell", folder / "x.png", {"--reference", folder / "r"}), "expected --target-error"},
         {render("cornell", folder / "x.jpg"), "expected .exr, .pfm or .png, got .jpg"},
+        {render("cornell", "jpg:-"), "-o: expected -, png:-, exr:- or pfm:-, got 'jpg:-'"},
+        {render("cornell", folder / "x.png", {"--crop", "4,4,5,4"}),
+         "--crop: expected a window within the picture of 8x8 pixels, got 5x4 at 4,4"},
+        {render("cornell", folder / "x.png", {"-D", "spp=4"}), "-D spp: expected a Mitsuba scene"},
+        {{"info", "cornell", "-D", "spp"}, "--define: expected NAME=VALUE"},
+        {{"replay", "cornell", "--crop", "0,0,8,8"}, "unknown option '--crop' of 'replay'"},
         {{"render", "cornell"}, "-o FILE"},
         {{"render", "-o", folder / "x.png"}, "needs a SCENE"},
         {{"inspect", "cornell", "-o", folder / "x.png"}, "--at"},

@@ -76,7 +76,7 @@ TEST_CASE("knobs that are wrong exit with 2 and tell the range or the nearest na
     };
     const std::vector<Wrong> wrongs{
         {{"info", "door", "--knob", "opening=46"}, "--knob opening: expected a number from 1 to 45"},
-        {{"render", "door", "-o", folder / "x.png", "--knob", "openin=4"}, "nearest: 'opening'"},
+        {{"render", "door", "-o", folder / "x.png", "--knob", "openin=4"}, "did you mean 'opening'?"},
         {{"inspect", "door", "-o", folder / "x.json", "--pixel", "1,1", "--knob", "opening=0"}, "from 1 to 45"},
         {{"info", "cornell", "--knob", "opening=4"}, "it has none"},
         {{"info", "door", "--knob", "opening"}, "--knob: expected NAME=VALUE"},

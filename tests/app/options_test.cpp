@@ -8,6 +8,11 @@
 
 #include <wordexp.h>
 
+#include <fmt/format.h>
+
+#include "app/build_info.h"
+#include "app/choices.h"
+#include "app/help.h"
 #include "app/parse_values.h"
 #include "core/io/load_scene.h"
 #include "tests/app/parsing.h"
@@ -61,7 +66,7 @@ Options any_options(std::mt19937& random) {
     if (random() % 2 == 0) o.render.field.refine_share = real(0.0f, 1.0f);
     o.render.field.rate = static_cast<LearningRate>(whole(1, 4));
     o.render.field.learning = {static_cast<LearningTarget>(whole(0, 2)), static_cast<LearnedLight>(whole(0, 1))};
-    o.render.roulette = static_cast<RouletteRule>(whole(0, 2));
+    o.render.roulette = static_cast<RouletteRule>(whole(0, 3));
     o.render.guiding = static_cast<GuidingRule>(whole(0, 1));
     o.display.exposure_ev = real(-64.0f, 64.0f);
     o.display.curve = static_cast<ToneCurve>(whole(0, 2));
@@ -72,6 +77,7 @@ Options any_options(std::mt19937& random) {
     if (whole(0, 1) == 1) o.load.map_kd = MapKd::Replaces;
     if (whole(0, 1) == 1) o.load.camera = "the side's camera";
     if (whole(0, 1) == 1) o.load.materials = "edited materials.json";
+    for (int i = whole(0, 2); i > 0; --i) o.load.parameters.emplace_back("p" + std::to_string(i), "it's, $2 = 3");
     o.threads = whole(0, 1024);
     o.backend = whole(0, 1) == 1 ? "cpu" : "auto";
     return o;
@@ -93,6 +99,7 @@ void require_equal(const Options& a, const Options& b) {
     REQUIRE(a.render.seed == b.render.seed);
     REQUIRE(a.render.max_depth == b.render.max_depth);
     REQUIRE(a.render.next_event == b.render.next_event);
+    REQUIRE(a.render.roulette == b.render.roulette);
     REQUIRE(a.render.mixture == b.render.mixture);
     REQUIRE((a.render.field == b.render.field));
     REQUIRE(a.display.exposure_ev == b.display.exposure_ev);
@@ -104,6 +111,7 @@ void require_equal(const Options& a, const Options& b) {
     REQUIRE(a.load.camera == b.load.camera);
     REQUIRE(a.load.map_kd == b.load.map_kd);
     REQUIRE(a.load.materials == b.load.materials);
+    REQUIRE(a.load.parameters == b.load.parameters);
     REQUIRE(a.threads == b.threads);
     REQUIRE(a.backend == b.backend);
 }
@@ -216,27 +224,99 @@ TEST_CASE("without a subcommand the viewer opens, on the Cornell box") {
 TEST_CASE("help, version and lists are answers, whatever else is missing") {
     CHECK_THAT(*parse_command_line({"--help"}).answer, contains("inspect SCENE"));
     CHECK_THAT(*parse_command_line({"-h"}).answer, contains("Exit codes"));
-    CHECK_THAT(*parse_command_line({"render", "--help"}).answer, contains("--bsdf-fraction"));
-    CHECK_THAT(*parse_command_line({"--version"}).answer, contains("pathlight "));
-    CHECK(lines_of(*parse_command_line({"--version"}).answer).size() == 1);
-    CHECK_THAT(*parse_command_line({"--version", "-v"}).answer, contains("commit "));
+    CHECK_THAT(*parse_command_line({"render", "--help"}).answer, contains("--method"));
+    CHECK_THAT(*parse_command_line({"render", "--help-all"}).answer, contains("--bsdf-fraction"));
+    CHECK_THAT(*parse_command_line({"--help-all"}).answer, contains("--ui-trace"));
     CHECK_THAT(*parse_command_line({"--list-methods"}).answer, contains("reinforcement"));
     CHECK_THAT(*parse_command_line({"render", "--list-views"}).answer,
                contains("radiance-map") && contains("bsdf-share"));
     CHECK_THAT(*parse_command_line({"--list-methods", "--json"}).answer, contains("{\"schema\""));
 }
 
-TEST_CASE("every option that can be given is in the help of its subcommand") {
-    for (const char* command :
-         {"view", "render", "info", "devices", "inspect", "trace", "compare", "reference", "bench", "report"}) {
-        const std::string help = *parse_command_line({command, "--help"}).answer;
-        const Command id = parse_command_line({command, "--help"}).command;
+TEST_CASE("the version names all that a report of a fault needs") {
+    const std::vector<std::string> lines = lines_of(*parse_command_line({"--version"}).answer);
+    REQUIRE(lines.size() == 6);
+    CHECK(lines[0].starts_with("pathlight "));
+    CHECK(lines[1] == "commit     " + std::string(commit_id()));
+    CHECK((lines[2].starts_with("compiler   GCC ") || lines[2].starts_with("compiler   Clang ")));
+    CHECK((lines[3] == "back ends  cpu, cuda" || lines[3] == "back ends  cpu (built without cuda)"));
+    CHECK_THAT(lines[4], contains("vectors    baseline") && contains("this machine: "));
+    CHECK((lines[5] == "MPI        yes" || lines[5] == "MPI        no"));
+    CHECK(*parse_command_line({"render", "--version"}).answer == *parse_command_line({"--version", "-v"}).answer);
+}
+
+TEST_CASE("'help' is the help of a subcommand") {
+    CHECK(parse_command_line({"help"}).answer == parse_command_line({"--help"}).answer);
+    for (const CommandInfo& info : all_commands())
+        CHECK(parse_command_line({"help", std::string(info.name)}).answer ==
+              parse_command_line({std::string(info.name), "--help"}).answer);
+    CHECK_THAT(complaint({"help", "rendr"}),
+               contains("unknown subcommand 'rendr'") && contains("did you mean 'render'?"));
+    CHECK_THAT(complaint({"help", "render", "bench"}), contains("'help': expected one subcommand, got render bench"));
+    CHECK_THAT(complaint({"hepl"}), contains("did you mean 'help'?"));
+}
+
+TEST_CASE(
+    "every option that can be given is in the full help of its subcommand, about twenty are in that of render") {
+    const auto is_listed = [](const std::string& help, const OptionSpec& spec) {
+        return help.find("--" + std::string(spec.name)) != std::string::npos;
+    };
+    for (const CommandInfo& info : all_commands()) {
+        const std::string command(info.name);
+        const std::string usual = *parse_command_line({command, "--help"}).answer;
+        const std::string all = *parse_command_line({command, "--help-all"}).answer;
+        int shown = 0;
         for (const OptionSpec& spec : option_table()) {
+            if (spec.group.empty() || !spec.commands.has(info.id)) continue;
             CAPTURE(command, std::string(spec.name));
-            const bool listed = help.find("--" + std::string(spec.name)) != std::string::npos;
-            if (!spec.group.empty() && spec.commands.has(id)) CHECK(listed);
+            CHECK(is_listed(all, spec));
+            if (!spec.is_expert) CHECK(is_listed(usual, spec));
+            shown += spec.is_expert ? 0 : 1;
         }
-        for (const std::string& line : lines_of(help)) CHECK(line.size() <= 110);
+        CHECK(shown <= 25);
+        if (info.id == Command::Render) CHECK(shown >= 15);
+        for (const std::string& help : {usual, all, program_help()})
+            for (const std::string& line : lines_of(help)) {
+                CAPTURE(line);
+                CHECK(line.size() <= 100);
+            }
+    }
+}
+
+TEST_CASE("every option is in the manual, or in the page on measuring") {
+    const std::string pages =
+        read_all(PL_SOURCE_DIR "/docs/manual.md") + read_all(PL_SOURCE_DIR "/docs/measuring.md");
+    for (const OptionSpec& spec : option_table()) {
+        if (spec.group.empty()) continue;
+        const std::string flags(spec.flags);
+        CAPTURE(flags);
+        CHECK(pages.find("--" + std::string(spec.name)) != std::string::npos);
+        for (const std::string& flag : split_at_commas(flags)) CHECK(pages.find("`" + flag) != std::string::npos);
+    }
+    for (const CommandInfo& info : all_commands())
+        CHECK_THAT(pages, contains(fmt::format("pathlight {}", info.id == Command::View ? "[view]" : info.name)));
+}
+
+TEST_CASE("each subcommand's help ends with three examples that can be given") {
+    const std::vector<std::string> scenes = list_scenes(find_assets_dir());
+    for (const CommandInfo& info : all_commands()) {
+        const std::string help = *parse_command_line({std::string(info.name), "--help"}).answer;
+        for (const std::string_view example : info.examples) {
+            CAPTURE(std::string(example));
+            std::vector<std::string> words = shell_words(std::string(example));
+            REQUIRE(words.front() == "pathlight");
+            words.erase(words.begin());
+            const CommandLine line = parse_command_line(words);
+            CHECK_FALSE(line.answer);
+            CHECK(line.command == info.id);
+            std::vector<std::string> opened{line.options.scene};
+            if (info.inputs == Inputs::Scenes) opened = line.options.inputs;
+            for (const std::string& scene : opened)
+                CHECK((scene.empty() || scene.find('.') != std::string::npos ||
+                       std::ranges::find(scenes, scene) != scenes.end()));
+        }
+        CHECK(help.ends_with(
+            fmt::format("\nExamples:\n  {}\n  {}\n  {}\n", info.examples[0], info.examples[1], info.examples[2])));
     }
 }
 

@@ -50,6 +50,64 @@ const std::set<std::string> kLearnedViews{"radiance-map", "visits", "irradiance"
 
 }  // namespace
 
+TEST_CASE("a crop shows its part of the picture, and its command repeats its bits") {
+    const TempDir folder;
+    const Arguments whole{"render", "cornell", "--size", "64x48", "--spp", "256", "-o", folder / "whole.exr"};
+    REQUIRE(run_program(whole).code == 0);
+    Arguments part = whole;
+    part.back() = folder / "part.exr";
+    part.insert(part.end(), {"--crop", "30,4,20,32"});
+    const ProgramResult result = run_program(part);
+    CAPTURE(result.err);
+    REQUIRE(result.code == 0);
+    ImageMetadata metadata;
+    const LinearImage all = read_exr(folder / "whole.exr");
+    const LinearImage crop = read_exr(folder / "part.exr", &metadata);
+    REQUIRE(crop.width == 20);
+    REQUIRE(crop.height == 32);
+    // Other numbers, same expectation: pixel by pixel within the noise, and none of it moved.
+    double squared = 0.0, difference = 0.0;
+    for (int y = 0; y < crop.height; ++y)
+        for (int x = 0; x < crop.width; ++x) {
+            const glm::dvec3 own(crop.pixels[static_cast<std::size_t>(20 * y + x)]);
+            const glm::dvec3 its(all.pixels[static_cast<std::size_t>(64 * (y + 4) + x + 30)]);
+            squared += glm::dot(its, its);
+            difference += glm::dot(own - its, own - its);
+        }
+    CHECK(difference < 0.003 * squared);
+    const std::string command = metadata_value(metadata, "command");
+    REQUIRE(run_shell(command).code == 0);
+    CHECK(read_exr(folder / "part.exr").pixels == crop.pixels);
+}
+
+TEST_CASE("without roulette paths end by their depth alone, and the picture is the same on the mean") {
+    const TempDir folder;
+    const auto stats = [&](const std::string& roulette, const std::string& method) {
+        const ProgramResult result = run_program(
+            {"render", "cornell", "--size", "32x32", "--spp", "64", "--max-depth", "8", "--roulette", roulette,
+             "--method", method, "--nee", "off", "-o", folder / "x.pfm", "--stats", folder / "s.json"});
+        CAPTURE(result.err);
+        REQUIRE(result.code == 0);
+        return json::parse(read_all(folder / "s.json"));
+    };
+    for (const std::string& method : kMethods) {
+        const json off = stats("off", method);
+        const json spare = stats("spare", method);
+        CAPTURE(method, off.dump(), spare.dump());
+        CHECK(off.at("roulette") == "off");
+        CHECK(spare.at("roulette") == "spare");
+        CHECK(off.at("mean_path_length") > spare.at("mean_path_length"));
+        if (method == "default")
+            CHECK(std::abs(off.at("mean_radiance")[0].get<double>() / spare.at("mean_radiance")[0].get<double>() -
+                           1.0) < 0.1);
+    }
+    const ProgramResult paths = run_program({"trace", "cornell", "--size", "32x32", "--pixel", "16,24", "--sample",
+                                             "0-255", "--roulette", "off", "--max-depth", "4", "--json"});
+    REQUIRE(paths.code == 0);
+    CHECK(paths.out.find("\"reason\":\"roulette\"") == std::string::npos);
+    CHECK(paths.out.find("\"reason\":\"depth-limit\"") != std::string::npos);
+}
+
 TEST_CASE("every method renders every view") {
     const TempDir folder;
     for (const std::string& method : kMethods)

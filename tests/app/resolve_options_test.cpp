@@ -41,6 +41,26 @@ TEST_CASE("wrong values name the option, the expected and the given value") {
         {{"--default-light", ""}, "--default-light: expected on or off"},
         {{"--up-axis", "w"}, "--up-axis: expected auto, x, y or z, got 'w'"},
         {{"--up-axis", "Z"}, "--up-axis: expected auto, x, y or z"},
+        {{"--crop", ""}, "--crop: expected a window X,Y,W,H, four whole numbers, got ''"},
+        {{"--crop", "1,2,3"}, "--crop: expected a window X,Y,W,H"},
+        {{"--crop", "1,2,3,4,5"}, "--crop: expected a window X,Y,W,H"},
+        {{"--crop", "-1,0,8,8"}, "--crop: expected a whole number from 0 to 16383, got '-1'"},
+        {{"--crop", "0,0,0,8"}, "--crop: expected a whole number from 1 to 16384, got '0'"},
+        {{"--crop", "0,0,8,nan"}, "--crop: expected a whole number from 1 to 16384, got 'nan'"},
+        {{"--crop", "0.5,0,8,8"}, "--crop: expected a whole number from 0 to 16383, got '0.5'"},
+        {{"--crop", "0,0,8,18446744073709551616"}, "--crop: expected a whole number from 1 to 16384"},
+        {{"--crop", "0,,8,8"}, "--crop: expected a whole number from 0 to 16383, got ''"},
+        {{"--crop", "500,0,16,16"},
+         "--crop: expected a window within the picture of 512x512 pixels, got 16x16 at 500,0"},
+        {{"--size", "64x32", "--crop", "0,0,64,33"},
+         "--crop: expected a window within the picture of 64x32 pixels, got 64x33 at 0,0"},
+        {{"--crop", "16383,16383,16384,16384"}, "got 16384x16384 at 16383,16383"},
+        {{"-D", ""}, "--define: expected NAME=VALUE, such as spp=64, got ''"},
+        {{"-D", "name"}, "--define: expected NAME=VALUE"},
+        {{"-D", "=3"}, "--define: expected NAME=VALUE"},
+        {{"-D", "a=1\n2"}, "--define: expected NAME=VALUE"},
+        {{"--roulette", "none"}, "--roulette: expected spare, albedo, field or off, got 'none'"},
+        {{"--roulette", ""}, "--roulette: expected spare, albedo, field or off, got ''"},
         {{"--bins", "200"}, "--bins: expected a square number"},
         {{"--bins", "1"}, "--bins: expected"},
         {{"--bins", "2025"}, "--bins: expected"},
@@ -57,9 +77,9 @@ TEST_CASE("wrong values name the option, the expected and the given value") {
         {{"--bsdf-fraction", "1.01"}, "--bsdf-fraction: expected"},
         {{"--nee", "yes"}, "--nee: expected on or off, got 'yes'"},
         {{"--method", "reinforcment"},
-         "--method: expected default, precomputed or reinforcement, got 'reinforcment' "
-         "(nearest: 'reinforcement')"},
-        {{"--view", "voroni"}, "nearest: 'voronoi'"},
+         "--method: expected default, precomputed or reinforcement, got 'reinforcment', "
+         "did you mean 'reinforcement'?"},
+        {{"--view", "voroni"}, "did you mean 'voronoi'?"},
         {{"--backend", "gpu"}, "--backend: expected auto, cpu or cuda"},
         {{"--tonemap", "filmic"}, "--tonemap: expected clamp, reinhard or aces"},
         {{"--exposure", "65"}, "--exposure: expected"},
@@ -72,9 +92,9 @@ TEST_CASE("wrong values name the option, the expected and the given value") {
         {{"--refine", "nan"}, "--refine: expected"},
         {{"--refine", "half"}, "--refine: expected"},
         {{"--learning-rate", "means"},
-         "--learning-rate: expected mean, forgetful, power or floor, got 'means' (nearest: 'mean')"},
+         "--learning-rate: expected mean, forgetful, power or floor, got 'means', did you mean 'mean'?"},
         {{"--field", "sdtree"},
-         "--field: expected table, sd-tree, lobes, neural or neural-vertex, got 'sdtree' (nearest: 'sd-tree')"},
+         "--field: expected table, sd-tree, lobes, neural or neural-vertex, got 'sdtree', did you mean 'sd-tree'?"},
         {{"--iterations", "twice"}, "--iterations: expected updates or doubling, got 'twice'"},
         {{"--iterations", "doubling"}, "--iterations doubling: expected --field sd-tree with it, got --field table"},
         {{"--field", "sd-tree", "--learn-target", "sarsa"},
@@ -90,10 +110,13 @@ TEST_CASE("wrong values name the option, the expected and the given value") {
         {{"--field", "lobes", "--iterations", "doubling"},
          "--iterations doubling: expected --field sd-tree with it, got --field lobes"},
         {{"--learn-target", "montecarlo"},
-         "--learn-target: expected expected-sarsa, sarsa or monte-carlo, got 'montecarlo' (nearest: 'monte-carlo')"},
-        {{"--learn-from", "direct"}, "--learn-from: expected all or indirect, got 'direct' (nearest: 'indirect')"},
-        {{"--roulette", "feild"}, "--roulette: expected spare, albedo or field, got 'feild' (nearest: 'field')"},
-        {{"--lookup", "kd-tree"}, "--lookup: expected kdtree, linear or grid, got 'kd-tree' (nearest: 'kdtree')"},
+         "--learn-target: expected expected-sarsa, sarsa or monte-carlo, got 'montecarlo', did you mean "
+         "'monte-carlo'?"},
+        {{"--learn-from", "direct"},
+         "--learn-from: expected all or indirect, got 'direct', did you mean 'indirect'?"},
+        {{"--roulette", "feild"},
+         "--roulette: expected spare, albedo, field or off, got 'feild', did you mean 'field'?"},
+        {{"--lookup", "kd-tree"}, "--lookup: expected kdtree, linear or grid, got 'kd-tree', did you mean 'kdtree'?"},
         {{"--seed", "-1"}, "--seed: expected a whole number of at least 0"},
         {{"--seed", "18446744073709551616"}, "--seed: expected"},
     };
@@ -101,6 +124,50 @@ TEST_CASE("wrong values name the option, the expected and the given value") {
         CAPTURE(wrong.words);
         CHECK_THAT(complaint(render_with(wrong.words)), contains(wrong.expected));
     }
+}
+
+TEST_CASE("a crop is a camera and a size, whatever gave the whole picture its own") {
+    SceneDescription scene = plain_scene();
+    scene.settings = {{"size", "640x360"}};
+    const Options whole = parse(render_with({}), scene);
+    const Options part = parse(render_with({"--crop", "320,45,160,90"}), scene);
+    CHECK(part.render.width == 160);
+    CHECK(part.render.height == 90);
+    CHECK(part.render.camera.fov_deg < whole.render.camera.fov_deg);
+    CHECK(part.render.camera.shift.x == Approx(80.0f / 90.0f));
+    CHECK(part.render.camera.shift.y == Approx(1.0f));
+    // The copied command has no crop, and is of the same picture to the bit.
+    const std::string command = command_text(Command::Render, part, scene_defaults("s", scene));
+    CHECK_THAT(command, contains("--size 160x90") && contains("--shift-x "));
+    CHECK_FALSE(command.find("--crop") != std::string::npos);
+    std::istringstream words(command);
+    const std::vector<std::string> arguments{++std::istream_iterator<std::string>(words), {}};
+    const Options again = parse(arguments, scene);
+    CHECK(again.render.camera.fov_deg == part.render.camera.fov_deg);
+    CHECK(again.render.camera.shift == part.render.camera.shift);
+    CHECK(again.render.width == 160);
+    const Options all = parse(render_with({"--crop", "0,0,640,360"}), scene);
+    CHECK(all.render.camera.fov_deg == whole.render.camera.fov_deg);
+    CHECK(all.render.camera.shift == whole.render.camera.shift);
+}
+
+TEST_CASE("parameters of a scene are kept in their order and come back from a copied command") {
+    const std::vector<std::string> given{"-D", "a=1,2", "--define", "b=x y", "-Dc=", "-D", "a=$b=3"};
+    const Options options = parse(render_with(given));
+    using Parameters = std::vector<std::pair<std::string, std::string>>;
+    CHECK(options.load.parameters == Parameters{{"a", "1,2"}, {"b", "x y"}, {"c", ""}, {"a", "$b=3"}});
+    CHECK_THAT(command_text(Command::Render, options, scene_defaults("s", plain_scene())),
+               contains(" --define a=1,2 --define 'b=x y' --define c= --define 'a=$b=3'"));
+}
+
+TEST_CASE("roulette off is a setting like its rules") {
+    SceneDescription scene = plain_scene();
+    scene.settings = {{"roulette", "off"}};
+    CHECK(parse(render_with({}), scene).render.roulette == kNoRoulette);
+    CHECK(parse(render_with({"--roulette", "spare"}), scene).render.roulette == RouletteRule::Spare);
+    const Options options = parse(render_with({"--roulette", "off"}));
+    CHECK_THAT(command_text(Command::Render, options, scene_defaults("s", plain_scene())),
+               contains(" --roulette off"));
 }
 
 TEST_CASE("the limits of values are values") {
@@ -133,11 +200,16 @@ TEST_CASE("options of later versions are refused by name") {
                contains("--save-field: the viewer saves") && contains("Ctrl+Shift+S"));
 }
 
-TEST_CASE("unknown words name the nearest one") {
-    CHECK_THAT(complaint({"rendr", "s"}), contains("nearest: 'render'"));
-    CHECK_THAT(complaint(render_with({"--sppp", "3"})), contains("nearest: '--spp'"));
-    CHECK_THAT(complaint(render_with({"--metod=default"})), contains("nearest: '--method'"));
-    CHECK_THAT(complaint({"devices", "--jsn"}), contains("nearest: '--json'"));
+TEST_CASE("unknown words name the nearest one, if any is near") {
+    for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
+             {"--backend", "gpu"}, {"--method", "rl"}, {"--tonemap", "filmic"}, {"--zz", "1"}})
+        CHECK(complaint(render_with(words)).find("did you mean") == std::string::npos);
+    CHECK(complaint({"man"}).find("did you mean") == std::string::npos);
+    CHECK_THAT(complaint({"cornel"}), contains("did you mean 'cornell'?"));
+    CHECK_THAT(complaint({"rendr", "s"}), contains("did you mean 'render'?"));
+    CHECK_THAT(complaint(render_with({"--sppp", "3"})), contains("did you mean '--spp'?"));
+    CHECK_THAT(complaint(render_with({"--metod=default"})), contains("did you mean '--method'?"));
+    CHECK_THAT(complaint({"devices", "--jsn"}), contains("did you mean '--json'?"));
     CHECK_THAT(complaint({"info", "s", "--bins", "4"}), contains("unknown option '--bins' of 'info'"));
     CHECK_THAT(complaint({"render", "s", "t", "-o", "x.png"}), contains("unexpected argument 't'"));
 }

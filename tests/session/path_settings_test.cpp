@@ -20,6 +20,20 @@ TEST_CASE("Path settings: guided paths play roulette late and split, others play
     CHECK(path_settings(settings, MethodId::Reinforcement).roulette_threshold < 1.0f);
 }
 
+TEST_CASE("Path settings: without roulette paths end by their depth alone, and are not split") {
+    for (const bool next_event : {false, true})
+        for (const int depth : {1, 7, 65536})
+            for (const MethodId method : {MethodId::Default, MethodId::Precomputed, MethodId::Reinforcement}) {
+                const PathSettings path =
+                    path_settings({.max_depth = depth, .next_event = next_event, .roulette = kNoRoulette}, method);
+                CHECK(path.roulette_start > path.max_depth);
+                CHECK(path.split_threshold == kInfinity);
+                CHECK(path.roulette == RouletteRule::Albedo);
+            }
+    CHECK(probe_settings({.roulette = kNoRoulette}, MethodId::Precomputed).roulette_start == 65);
+    CHECK(path_settings({}, MethodId::Default).roulette_start == PathSettings{}.roulette_start);
+}
+
 TEST_CASE("Path settings: with light samples only the rule that follows the field alone splits") {
     RenderSettings settings;
     settings.next_event = true;

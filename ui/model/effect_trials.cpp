@@ -20,7 +20,7 @@ void EffectTrials::stop() {
 
 void EffectTrials::update() {
     if (!link_.frame()) return;
-    const std::optional<EffectCost>& cost = link_.status().effect_cost;
+    const std::optional<EffectTrialCost>& cost = link_.status().effect_cost;
     table_.update(*link_.frame(), cost);
     const bool is_done = cost && cost->forced == measuring_ && cost->done;
     if (measuring_ && (is_done || link_.turns())) stop();  // turns and trials exclude each other

@@ -8,7 +8,7 @@
 
 namespace pl {
 
-void EffectsModel::update(const PublishedFrame& frame, const std::optional<EffectCost>& measured) {
+void EffectsModel::update(const PublishedFrame& frame, const std::optional<EffectTrialCost>& measured) {
     Place place{.scene = frame.scene,
                 .needed = needed_features(*frame.scene, frame.settings),
                 .slot = frame.snapshot.slot,
@@ -31,7 +31,7 @@ void EffectsModel::update(const PublishedFrame& frame, const std::optional<Effec
         }
     }
     if (!measured || measured->base_kernel != kernel_ || measured->result.pairs == 0) return;
-    std::erase_if(costs_, [&](const EffectCost& cost) { return cost.kernel == measured->kernel; });
+    std::erase_if(costs_, [&](const EffectTrialCost& cost) { return cost.kernel == measured->kernel; });
     costs_.push_back(*measured);
 }
 
@@ -42,8 +42,8 @@ std::string EffectsModel::kernel_with(FeatureSet forced) const {
     return served_kernel(place_.backend, place_.needed, settings).name;
 }
 
-const EffectCost* EffectsModel::cost_of(FeatureSet forced) const {
-    const auto cost = std::ranges::find(costs_, kernel_with(forced), &EffectCost::kernel);
+const EffectTrialCost* EffectsModel::cost_of(FeatureSet forced) const {
+    const auto cost = std::ranges::find(costs_, kernel_with(forced), &EffectTrialCost::kernel);
     return cost != costs_.end() ? &*cost : nullptr;
 }
 

@@ -21,14 +21,14 @@ struct EffectRow {
 class EffectsModel {
 public:
     /// Drops costs that were measured on another picture, back end or kernel.
-    void update(const PublishedFrame& frame, const std::optional<EffectCost>& measured);
+    void update(const PublishedFrame& frame, const std::optional<EffectTrialCost>& measured);
 
     const std::vector<EffectRow>& rows() const { return rows_; }
     /// The kernel that serves the needed effects, with none forced.
     const std::string& kernel() const { return kernel_; }
     std::string kernel_with(FeatureSet forced) const;
     /// The cost of forcing these effects, measured for any effects that the same kernel serves; null if unknown.
-    const EffectCost* cost_of(FeatureSet forced) const;
+    const EffectTrialCost* cost_of(FeatureSet forced) const;
 
 private:
     /// The picture, back end and kernel of a measured cost.
@@ -47,7 +47,7 @@ private:
     Place place_;
     std::vector<EffectRow> rows_;
     std::string kernel_;
-    std::vector<EffectCost> costs_;
+    std::vector<EffectTrialCost> costs_;
 };
 
 }  // namespace pl

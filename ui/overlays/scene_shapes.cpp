@@ -15,7 +15,7 @@ constexpr std::uint8_t kHiddenAlpha = 90;  ///< if the scene hides it from the c
 constexpr int kRimSteps = 48;
 
 /// The picture, and the list that draws over it.
-struct Canvas {
+struct ShapeCanvas {
     ImDrawList& out;
     const PublishedFrame& frame;
     const Projection& projection;
@@ -33,7 +33,7 @@ bool is_hidden(const PublishedFrame& frame, const VolumeInspection& volume, floa
 }
 
 /// The rim in the color of the pin.
-void draw_rim(const Canvas& canvas, const VolumeInspection& volume, float radius, ImU32 color) {
+void draw_rim(const ShapeCanvas& canvas, const VolumeInspection& volume, float radius, ImU32 color) {
     const Frame frame = make_frame(volume.normal);
     const auto at = [&](int step) {
         const float angle = 2.0f * kPi * static_cast<float>(step) / kRimSteps;
@@ -43,7 +43,7 @@ void draw_rim(const Canvas& canvas, const VolumeInspection& volume, float radius
 }
 
 /// From the volume through the peak, beyond the shape.
-void draw_peak(const Canvas& canvas, const VolumeInspection& volume, float length, ImU32 color) {
+void draw_peak(const ShapeCanvas& canvas, const VolumeInspection& volume, float length, ImU32 color) {
     const Vec3f direction = peak_direction(volume.normal, volume.side, volume.probability);
     const Vec3f tip = volume.position + length * direction;
     canvas.line(volume.position, tip, color, em(0.12f));
@@ -70,7 +70,7 @@ float largest_density(const std::vector<ShownVolume>& volumes) {
     return largest;
 }
 
-void draw_volume(const Canvas& canvas, const ShownVolume& shown, const ShapeScale& scale, float largest) {
+void draw_volume(const ShapeCanvas& canvas, const ShownVolume& shown, const ShapeScale& scale, float largest) {
     const VolumeInspection& volume = *shown.volume;
     const float share = scale.shape == LobeShape::Lobe ? kLobeShare : kDomeShare;
     const float radius = share * canvas.frame.facts.diagonal;
@@ -110,7 +110,7 @@ void draw_shapes(ImDrawList& out, const PublishedFrame& frame, const Projection&
     };
     std::ranges::stable_sort(volumes, std::ranges::greater{}, distance);
     const float largest = largest_density(volumes);
-    const Canvas canvas{out, frame, projection};
+    const ShapeCanvas canvas{out, frame, projection};
     for (const ShownVolume& shown : volumes) draw_volume(canvas, shown, scale, largest);
 }
 

@@ -8,7 +8,7 @@
 namespace pl {
 namespace {
 
-std::string cost_text(const EffectCost& cost) {
+std::string cost_text(const EffectTrialCost& cost) {
     const PairedCost::Result& r = cost.result;
     std::string text = fmt::format("{} -> {}", short_seconds(r.base_seconds), short_seconds(r.other_seconds));
     if (r.pairs >= kFewestRuns)
@@ -29,7 +29,7 @@ void draw_cost(ViewerModel& model, FeatureSet forced) {
     const EffectsModel& effects = model.effects().table();
     if (effects.kernel_with(forced) == effects.kernel()) {
         faint_text("The same kernel: no cost.");
-    } else if (const EffectCost* cost = effects.cost_of(forced)) {
+    } else if (const EffectTrialCost* cost = effects.cost_of(forced)) {
         text_line(cost_text(*cost).c_str(), colors::kText);
         tooltip(
             "Time of a pass of this picture without and with the effect: means over pairs, their ratio and its 95 % "

@@ -18,7 +18,7 @@ constexpr float kFirst = -10.0f;
 constexpr float kLast = 8.0f;
 
 /// The rectangle of the curve, with the place of a luminance in it.
-struct Plot {
+struct HistogramPlot {
     ImVec2 low;
     ImVec2 high;
 
@@ -28,7 +28,7 @@ struct Plot {
 };
 
 /// Heights by the square root, so that a small share of bright pixels is seen.
-void draw_bars(ImDrawList& list, const Plot& plot, const Histogram& histogram) {
+void draw_bars(ImDrawList& list, const HistogramPlot& plot, const Histogram& histogram) {
     const auto largest = static_cast<float>(*std::ranges::max_element(histogram.counts));
     const float stops = (Histogram::kHigh - Histogram::kLow) / static_cast<float>(Histogram::kBins);
     for (int bin = 0; bin < Histogram::kBins; ++bin) {
@@ -41,7 +41,7 @@ void draw_bars(ImDrawList& list, const Plot& plot, const Histogram& histogram) {
     }
 }
 
-void draw_mark(ImDrawList& list, const Plot& plot, float log2_luminance, ImU32 color, const char* name) {
+void draw_mark(ImDrawList& list, const HistogramPlot& plot, float log2_luminance, ImU32 color, const char* name) {
     const float x = plot.x_of(std::clamp(log2_luminance, kFirst, kLast));
     list.AddLine({x, plot.low.y}, {x, plot.high.y}, color, 2.0f);
     const float width = ImGui::CalcTextSize(name).x;
@@ -98,7 +98,7 @@ void draw_histogram(ViewerModel& model) {
             "luminance that the "
             "exposure shows as white. Gray: that of 18 percent of it.");
     ImDrawList& list = *ImGui::GetWindowDrawList();
-    const Plot plot{low, {low.x + size.x, low.y + size.y}};
+    const HistogramPlot plot{low, {low.x + size.x, low.y + size.y}};
     list.AddRectFilled(plot.low, plot.high, colors::kBadge);
     if (histogram->counted() > 0) draw_bars(list, plot, *histogram);
     draw_mark(list, plot, std::log2(0.18f) - exposure, colors::kAccent, "gray");

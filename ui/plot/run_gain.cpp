@@ -14,12 +14,7 @@ constexpr double kNormalQuantile = 1.95996;  ///< of 0.975: blocks are many
 
 using Repetitions = std::vector<std::shared_ptr<const LiveRun>>;
 
-bool has_error(const LiveRun& run, ErrorMetric metric) {
-    return std::ranges::any_of(run.points,
-                               [&](const LivePoint& point) { return error_of(point, metric).has_value(); });
-}
-
-/// The last point at which the error was measured.
+/// The last point at which the error was measured; without samples if there is none.
 RunEnd last_point(const LiveRun& run, ErrorMetric metric) {
     RunEnd end;
     for (const LivePoint& point : run.points)
@@ -77,8 +72,8 @@ struct Sides {
     bool have_enough_samples() const { return base.has_enough_samples() && own.has_enough_samples(); }
 };
 
-/// Both after the same time: an estimate of noise keeps growing while fireflies are still being found. Each at its end if one run is
-/// over so soon that the other had too few samples by then, and will have no more.
+/// Both after the same time: an estimate of noise keeps growing while fireflies are still being found. Each at its end if the shorter
+/// run took so little time that the other had too few samples by then: it may be over, and waiting would bring nothing.
 Sides sides_of(const Repetitions& base, const Repetitions& runs, ErrorMetric metric) {
     Sides sides{.base = {curves_of(base, metric), {}}, .own = {curves_of(runs, metric), {}}};
     std::vector<Curve> all = sides.base.curves;
@@ -89,7 +84,8 @@ Sides sides_of(const Repetitions& base, const Repetitions& runs, ErrorMetric met
     };
     const auto common = common_range(all);
     take_ends(common);
-    if (common && !sides.have_enough_samples()) {
+    sides.same_time = common.has_value();
+    if (sides.same_time && !sides.have_enough_samples()) {
         take_ends(std::nullopt);
         sides.same_time = false;
     }
@@ -102,15 +98,10 @@ RunLabel label_of_all(const Repetitions& runs) {
     return label;
 }
 
-std::optional<ErrorMetric> common_metric(const LiveRun& base, const LiveRun& run) {
-    for (const ErrorMetric metric : {ErrorMetric::RelMse, ErrorMetric::Noise})
-        if (has_error(base, metric) && has_error(run, metric)) return metric;
-    return std::nullopt;
-}
-
+/// Those that were measured with enough samples: one that is over before would keep all others from being compared.
 Repetitions measured_repetitions(RunList runs, const LiveRun& like, ErrorMetric metric) {
     Repetitions repetitions = repetitions_of(runs, like);
-    std::erase_if(repetitions, [&](const auto& run) { return !has_error(*run, metric); });
+    std::erase_if(repetitions, [&](const auto& run) { return last_point(*run, metric).samples < kFewestSamples; });
     return repetitions;
 }
 
@@ -123,6 +114,33 @@ Interval block_interval(double ratio, double base_off, double off) {
 std::string block_text(const Interval& net) {
     return fmt::format(". Over the blocks of this picture alone 95 %: {:.2g} to {:.2g}; other seeds differ by more",
                        net.low, net.high);
+}
+
+std::optional<RunGain> gain_by(ErrorMetric metric, RunList runs, const LiveRun& base, const LiveRun& run) {
+    const Repetitions base_runs = measured_repetitions(runs, base, metric);
+    const Repetitions own_runs = measured_repetitions(runs, run, metric);
+    if (base_runs.empty() || own_runs.empty()) return std::nullopt;
+    const Sides sides = sides_of(base_runs, own_runs, metric);
+
+    const Gain gain = gain_over(sides.base.ends, sides.own.ends, sides.base.curves, sides.own.curves);
+    RunGain result{.net = {gain.net.value, 0.0, std::numeric_limits<double>::infinity()},
+                   .sentence = fmt::format("{} {}", name_of(label_of_all(own_runs)),
+                                           headline(gain, name_of(label_of_all(base_runs))))};
+    if (gain.runs >= kFewestRuns) {
+        result.net = gain.net;
+        result.source = IntervalSource::Seeds;
+    } else if (base_runs.size() == 1 && own_runs.size() == 1) {
+        const double base_off = log_error_off(*base_runs[0], metric);
+        const double off = log_error_off(*own_runs[0], metric);
+        if (base_off > 0.0 && off > 0.0) {
+            result.net = block_interval(gain.net.value, base_off, off);
+            result.source = IntervalSource::Blocks;
+            result.sentence += block_text(result.net);
+        }
+    }
+    if (!sides.same_time) result.sentence += ". Each at its end: one ran too short to compare both after its time";
+    if (metric == ErrorMetric::Noise) result.sentence += ". By their own noise: there is no reference for both";
+    return result;
 }
 
 }  // namespace
@@ -147,33 +165,9 @@ Repetitions repetitions_of(RunList runs, const LiveRun& like) {
 }
 
 std::optional<RunGain> gain_of_run(RunList runs, const LiveRun& base, const LiveRun& run) {
-    const auto metric = common_metric(base, run);
-    if (!metric) return std::nullopt;
-    const Repetitions base_runs = measured_repetitions(runs, base, *metric);
-    const Repetitions own_runs = measured_repetitions(runs, run, *metric);
-    if (base_runs.empty() || own_runs.empty()) return std::nullopt;
-    const Sides sides = sides_of(base_runs, own_runs, *metric);
-    if (!sides.have_enough_samples()) return std::nullopt;
-
-    const Gain gain = gain_over(sides.base.ends, sides.own.ends, sides.base.curves, sides.own.curves);
-    RunGain result{.net = {gain.net.value, 0.0, std::numeric_limits<double>::infinity()},
-                   .sentence = fmt::format("{} {}", name_of(label_of_all(own_runs)),
-                                           headline(gain, name_of(label_of_all(base_runs))))};
-    if (gain.runs >= kFewestRuns) {
-        result.net = gain.net;
-        result.source = IntervalSource::Seeds;
-    } else if (base_runs.size() == 1 && own_runs.size() == 1) {
-        const double base_off = log_error_off(*base_runs[0], *metric);
-        const double off = log_error_off(*own_runs[0], *metric);
-        if (base_off > 0.0 && off > 0.0) {
-            result.net = block_interval(gain.net.value, base_off, off);
-            result.source = IntervalSource::Blocks;
-            result.sentence += block_text(result.net);
-        }
-    }
-    if (!sides.same_time) result.sentence += ". Each at its end: one ran too short to compare both after its time";
-    if (*metric == ErrorMetric::Noise) result.sentence += ". By their own noise: there is no reference";
-    return result;
+    for (const ErrorMetric metric : {ErrorMetric::RelMse, ErrorMetric::Noise})
+        if (auto gain = gain_by(metric, runs, base, run)) return gain;
+    return std::nullopt;
 }
 
 }  // namespace pl

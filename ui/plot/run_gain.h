@@ -34,7 +34,7 @@ std::vector<std::shared_ptr<const LiveRun>> repetitions_of(RunList runs, const L
 
 /// `run` and its repetitions against `base` and its own. By Metrics::relmse if both have it, else by their own noise,
 /// which the sentence states. At the last time at which all were measured, else, or if a side has too few samples by then, at the end of
-/// each. Empty while a side has too few samples there, too.
+/// each. Repetitions that have too few samples at their ends do not count; empty if no other is left on a side.
 std::optional<RunGain> gain_of_run(RunList runs, const LiveRun& base, const LiveRun& run);
 
 }  // namespace pl

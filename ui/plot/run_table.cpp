@@ -35,9 +35,20 @@ void keep_newest(std::vector<Run>& kinds, std::size_t most) {
     while (kinds.size() > most) kinds.erase(std::ranges::min_element(kinds, {}, &LiveRun::number));
 }
 
+/// "1 renders default".
+std::string way_to(MethodId method) {
+    return fmt::format("{} renders {}", info_of(method).key, info_of(method).name);
+}
+
 std::string missing_base_text(const RunLabel& label) {
-    return fmt::format("{} has nothing to be compared with yet: {} renders {}", name_of(label),
-                       info_of(baseline_method()).key, info_of(baseline_method()).name);
+    return fmt::format("{} has nothing to be compared with yet: {}", name_of(label), way_to(baseline_method()));
+}
+
+/// A run that is not rendered gets no more samples by waiting.
+std::string too_few_text(const LiveRun& shorter) {
+    if (shorter.in_progress) return name_of(shorter.label) + ": too few samples to compare yet";
+    return fmt::format("{} has too few samples to compare, and has to go on: {}", name_of(shorter.label),
+                       way_to(shorter.label.method));
 }
 
 MissingGain reason_without_gain(const LiveRun& run, bool has_base) {
@@ -51,10 +62,10 @@ bool is_shorter(const LiveRun& a, const LiveRun& b) {
 }
 
 /// `shorter`: of the two runs that are compared.
-std::string remark_of(const RunRow& row, const RunLabel& shorter) {
+std::string remark_of(const RunRow& row, const LiveRun& shorter) {
     switch (row.missing) {
     case MissingGain::IsBase: return name_of(row.label) + ": other methods are compared with it";
-    case MissingGain::TooFewSamples: return name_of(shorter) + ": too few samples to compare yet";
+    case MissingGain::TooFewSamples: return too_few_text(shorter);
     case MissingGain::NoBase: return missing_base_text(row.label);
     case MissingGain::None: break;
     }
@@ -74,7 +85,7 @@ RunRow row_of(RunList runs, const LiveRun& run) {
     const auto base = base_of(runs, run);
     if (base && run.label.method != baseline_method()) row.gain = gain_of_run(runs, *base, run);
     if (!row.gain) row.missing = reason_without_gain(run, base != nullptr);
-    row.remark = remark_of(row, base && is_shorter(*base, run) ? base->label : run.label);
+    row.remark = remark_of(row, base && is_shorter(*base, run) ? *base : run);
     return row;
 }
 

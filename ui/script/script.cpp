@@ -43,9 +43,9 @@ std::optional<double> to_number(std::string_view text) {
 }
 
 /// The words of one line, taken from the front.
-class LineReader {
+class ScriptLine {
 public:
-    LineReader(std::string_view line, std::string where) : stream_(std::string(line)), where_(std::move(where)) {}
+    ScriptLine(std::string_view line, std::string where) : stream_(std::string(line)), where_(std::move(where)) {}
 
     [[noreturn]] void fail(const std::string& what) const {
         throw Error(ErrorKind::Input, fmt::format("{}: {}", where_, what));
@@ -85,7 +85,7 @@ private:
     std::string where_;
 };
 
-int read_button(LineReader& line) {
+int read_button(ScriptLine& line) {
     const std::string name = line.word("left, right or middle");
     if (name == "left") return SDL_BUTTON_LEFT;
     if (name == "right") return SDL_BUTTON_RIGHT;
@@ -94,7 +94,7 @@ int read_button(LineReader& line) {
 }
 
 /// The rest of the line.
-Modifiers read_modifiers(LineReader& line) {
+Modifiers read_modifiers(ScriptLine& line) {
     Modifiers modifiers;
     while (const auto modifier = line.next()) {
         if (*modifier == "shift")
@@ -109,7 +109,7 @@ Modifiers read_modifiers(LineReader& line) {
     return modifiers;
 }
 
-KeyStroke read_key(LineReader& line) {
+KeyStroke read_key(ScriptLine& line) {
     const std::string name = line.word("a key");
     const SDL_Scancode scancode = SDL_GetScancodeFromName(name.c_str());
     if (scancode == SDL_SCANCODE_UNKNOWN)
@@ -117,7 +117,7 @@ KeyStroke read_key(LineReader& line) {
     return {scancode, 0, read_modifiers(line)};  // the symbol follows from the keyboard layout
 }
 
-ScriptCondition read_condition(LineReader& line) {
+ScriptCondition read_condition(ScriptLine& line) {
     ScriptCondition condition;
     condition.name = line.word("the name of a value");
     if (!is_script_value(condition.name))
@@ -129,7 +129,20 @@ ScriptCondition read_condition(LineReader& line) {
     return condition;
 }
 
-void read_arguments(LineReader& line, std::string_view word, ScriptCommand& command) {
+/// Takes " within N" off the end of a wait's value.
+void read_limit(const ScriptLine& line, ScriptCommand& command) {
+    constexpr std::string_view kWord = " within ";
+    std::string& value = command.condition.value;
+    const std::size_t at = value.rfind(kWord);
+    if (at == std::string::npos) return;
+    const std::string text = value.substr(at + kWord.size());
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), command.most_passes);
+    if (error != std::errc{} || end != text.data() + text.size() || command.most_passes == 0)
+        line.fail(fmt::format("expected a number of passes, a whole number from 1, got '{}'", text));
+    value.resize(at);
+}
+
+void read_arguments(ScriptLine& line, std::string_view word, ScriptCommand& command) {
     switch (command.kind) {
     case Kind::Move:
     case Kind::Aim:
@@ -169,10 +182,12 @@ void read_arguments(LineReader& line, std::string_view word, ScriptCommand& comm
     case Kind::Shot: command.text = line.rest("a file name"); break;
     case Kind::Expect: command.condition = read_condition(line); break;
     case Kind::Wait:
-        if (word == "wait")
+        if (word == "wait") {
             command.condition = read_condition(line);
-        else
+            read_limit(line, command);
+        } else {
             command.condition = {"spp", ">=", fmt::format("{}", line.number("a number of samples"))};
+        }
         break;
     case Kind::Quit: break;
     }
@@ -186,7 +201,7 @@ std::string known_words() {
 }
 
 ScriptCommand parse_line(std::string_view text, const std::string& where, int previous_frame) {
-    LineReader line(text, where);
+    ScriptLine line(text, where);
     ScriptCommand command;
     command.where = where;
     const double frame = line.number("a frame number");

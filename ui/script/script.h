@@ -4,13 +4,16 @@
 //   FRAME key K [MODS] | keyup K
 //   FRAME tap K [MODS] | resize W H | drop FILE
 //   FRAME type TEXT | monkey SEED EVENTS
-//   FRAME shot FILE | expect NAME OP VALUE | wait NAME OP VALUE | wait_spp N | quit
+//   FRAME shot FILE | expect NAME OP VALUE | wait NAME OP VALUE [within N] | wait_spp N | quit
 // B is left, right or middle; MODS are shift, ctrl, alt. `aim` points at the image: (0, 0) is its top left corner and
 // (1, 1) its bottom right one. `aim_plot` points at the curves of the accuracy panel in the same way, and beyond (1, 1)
 // at the numbers of its axes. `aim_at` points at the control with this label: also a tab or a button. OP is one of
 // == != < <= > >= ~ (contains). `monkey` plays random input. The frame count stands still while a script waits, and meanwhile.
+// A wait that has not come true after N further passes of any picture, 100000 unless given otherwise, ends the script as a failed
+// expectation does. Passes, not seconds: no verdict depends on the speed of the machine.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -30,6 +33,8 @@ struct ScriptCondition {
 bool holds(const ScriptCondition& condition, const std::string& actual);
 
 struct ScriptCommand {
+    static constexpr std::uint64_t kMostPasses = 100000;
+
     enum class Kind {
         Move,
         Aim,
@@ -59,6 +64,7 @@ struct ScriptCommand {
     KeyStroke key{};
     std::string text;  ///< file name, label, typed text
     ScriptCondition condition;
+    std::uint64_t most_passes = kMostPasses;  ///< that a wait may take
 };
 
 /// Throws Error(Input) with file and line.

@@ -82,11 +82,16 @@ bool ScriptPlayer::wait(const ScriptCommand& command, const ViewerModel& model, 
         waiting_since_.reset();
         return true;
     }
-    if (!waiting_since_) waiting_since_ = seconds;
-    if (seconds - *waiting_since_ < kHangSeconds) return false;
-    throw Error(ErrorKind::Runtime, fmt::format("{}: waited {:.0f} s for {} {} {}, got '{}'", command.where,
-                                                kHangSeconds, command.condition.name, command.condition.op,
-                                                command.condition.value, value_of(command.condition, model)));
+    const std::uint64_t passes = model.status().all_passes;
+    if (!waiting_since_) waiting_since_ = {passes, seconds};
+    const std::uint64_t waited = passes - waiting_since_->passes;
+    if (waited < command.most_passes && seconds - waiting_since_->seconds < kHangSeconds) return false;
+    throw Error(ErrorKind::Runtime,
+                fmt::format("{}: waited {} for {} {} {}, got '{}'", command.where,
+                            waited < command.most_passes ? fmt::format("{:.0f} s and {} passes", kHangSeconds, waited)
+                                                         : fmt::format("{} passes", waited),
+                            command.condition.name, command.condition.op, command.condition.value,
+                            value_of(command.condition, model)));
 }
 
 /// The layout may have moved a control since it was aimed at, as a line appears above it.

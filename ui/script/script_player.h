@@ -19,7 +19,7 @@ class ViewerModel;
 class ScriptPlayer {
 public:
     static constexpr double kFrameSeconds = 1.0 / 60.0;
-    /// Only a guard against waits that never end, so that no verdict depends on the speed of the machine.
+    /// Only a guard against waits without end while nothing is rendered, see also ScriptCommand::most_passes.
     static constexpr double kHangSeconds = 600.0;
 
     ScriptPlayer(std::vector<ScriptCommand> commands, SDL_Window* window);
@@ -57,7 +57,12 @@ private:
     int frame_ = 0;
     std::optional<Monkey> monkey_;
     int monkey_frames_ = 0;  ///< in which random input was played
-    std::optional<double> waiting_since_;
+    /// The moment at which a wait began.
+    struct Moment {
+        std::uint64_t passes;  ///< WorkerStatus::all_passes
+        double seconds;        ///< of the real time
+    };
+    std::optional<Moment> waiting_since_;
     std::uint64_t messages_before_ = 0;      ///< the last input
     std::optional<ScriptCommand> aimed_at_;  ///< the control under the pointer
     std::vector<KeyStroke> tapped_;          ///< keys that go up in the next frame

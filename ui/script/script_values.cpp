@@ -60,7 +60,7 @@ std::string cursor_kind(const ViewerModel& model) {
 
 /// Of the kernel that serves every effect.
 std::string measured_pairs(const ViewerModel& model) {
-    const EffectCost* cost = model.effects().table().cost_of(kEveryFeature);
+    const EffectTrialCost* cost = model.effects().table().cost_of(kEveryFeature);
     return fmt::format("{}", cost != nullptr ? cost->result.pairs : 0);
 }
 

@@ -48,13 +48,13 @@ void EffectTrial::end_pass(const Session& session, FilmSlot slot, const std::str
     }
 }
 
-std::optional<EffectCost> EffectTrial::cost() const {
+std::optional<EffectTrialCost> EffectTrial::cost() const {
     if (!trial_) return std::nullopt;
-    return EffectCost{.forced = trial_->forced,
-                      .base_kernel = trial_->kernels[0],
-                      .kernel = trial_->kernels[1],
-                      .result = trial_->cost.result(),
-                      .done = trial_->cost.done()};
+    return EffectTrialCost{.forced = trial_->forced,
+                           .base_kernel = trial_->kernels[0],
+                           .kernel = trial_->kernels[1],
+                           .result = trial_->cost.result(),
+                           .done = trial_->cost.done()};
 }
 
 }  // namespace pl

@@ -31,7 +31,7 @@ public:
     void end_pass(const Session& session, FilmSlot slot, const std::string& backend, Progress progress);
 
     /// Empty while nothing is measured.
-    std::optional<EffectCost> cost() const;
+    std::optional<EffectTrialCost> cost() const;
 
 private:
     struct Trial {

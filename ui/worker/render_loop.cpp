@@ -189,6 +189,7 @@ void RenderLoop::render() {
     const std::uint32_t before = passes();
     const Progress progress = session_->advance(slot(), inbox_.stop_flag(), is_whole ? most_passes() : 1);
     measured_.trial.end_pass(*session_, slot(), backends_.current(), progress);
+    all_passes_ += passes() - before;
     if (progress == Progress::Rendered) {
         if (passes() == 1) frames_.ask();
         size_.observe(watch.seconds() / std::max(1u, passes() - before));
@@ -267,6 +268,7 @@ WorkerState RenderLoop::state_of(const WorkerStatus& status) const {
 WorkerStatus RenderLoop::make_status() const {
     WorkerStatus status;
     status.passes = passes();
+    status.all_passes = all_passes_;
     status.picture = size_.is_whole() && preview_.now() == Preview::None
                          ? measured_.runs.picture(session_->film_origin(slot()))
                          : 0;

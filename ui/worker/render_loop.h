@@ -103,7 +103,8 @@ private:
     CellRenderer cells_;
     Watched watched_;
     FrameSchedule frames_;
-    SceneFacts facts_;  ///< of the session's scene
+    SceneFacts facts_;              ///< of the session's scene
+    std::uint64_t all_passes_ = 0;  ///< of every film, since the start
     bool failed_ = false;
 };
 

@@ -26,8 +26,9 @@ namespace {
 /// Builds the scene from the objects of the file.
 class MitsubaLoader {
 public:
-    MitsubaLoader(const std::filesystem::path& path, std::uint64_t most_copied_triangles)
-        : file_(path), instances_(most_copied_triangles), round_shapes_(count_round_shapes(file_)) {
+    MitsubaLoader(const std::filesystem::path& path, const LoadSettings& asked)
+        : file_(path, asked.parameters), instances_(asked.most_copied_triangles),
+          round_shapes_(count_round_shapes(file_)) {
         scene_.source = path;
     }
 
@@ -251,8 +252,8 @@ private:
 
 }  // namespace
 
-SceneDescription load_mitsuba(const std::filesystem::path& path, std::uint64_t most_copied_triangles) {
-    return MitsubaLoader(path, most_copied_triangles).run();
+SceneDescription load_mitsuba(const std::filesystem::path& path, const LoadSettings& asked) {
+    return MitsubaLoader(path, asked).run();
 }
 
 }  // namespace pl

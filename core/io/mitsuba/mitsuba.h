@@ -12,8 +12,7 @@ namespace pl {
 /// the caller sets the name. `up` is that of the camera. The first sensor becomes the first of SceneDescription::cameras. The
 /// depth of the integrator becomes the preset max-depth. Content without a counterpart is told once for each kind, as is every property
 /// that is not read.
-/// Throws Error(Input) with file and line, see MitsubaFile.
-SceneDescription load_mitsuba(const std::filesystem::path& path,
-                              std::uint64_t most_copied_triangles = kMostCopiedTriangles);
+/// Throws Error(Input) with file and line, see MitsubaFile, and Error(Usage) for LoadSettings::parameters that the files do not have.
+SceneDescription load_mitsuba(const std::filesystem::path& path, const LoadSettings& asked = {});
 
 }  // namespace pl

@@ -9,46 +9,22 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "core/io/line_reader.h"
+#include "core/scene/crop.h"
 
 namespace pl {
 namespace {
 
-/// The part of a film that is rendered, in pixels.
-struct Crop {
-    float film_width, film_height;
-    float x, y;  ///< of its top left corner
-    float width, height;
-};
-
-Crop crop_of(const MitsubaObject& film, float width, float height) {
+/// The part of a film that is rendered.
+CropWindow crop_of(const MitsubaObject& film, float width, float height) {
     const float x = film.number("crop_offset_x").value_or(0.0f);
     const float y = film.number("crop_offset_y").value_or(0.0f);
-    const Crop crop{width,
-                    height,
-                    x,
-                    y,
-                    film.number("crop_width").value_or(width - x),
-                    film.number("crop_height").value_or(height - y)};
+    const CropWindow crop{x, y, film.number("crop_width").value_or(width - x),
+                          film.number("crop_height").value_or(height - y)};
     if (!(x >= 0.0f && y >= 0.0f && crop.width >= 1.0f && crop.height >= 1.0f && x + crop.width <= width &&
           y + crop.height <= height))
         film.fail(fmt::format("expected a crop within {:.0f}x{:.0f} pixels, got {}x{} at ({}, {})", width, height,
                               crop.width, crop.height, x, y));
     return crop;
-}
-
-/// The camera of a crop: of a smaller angle, and shifted. The offset of the principal point is in sides of the film, right and down.
-CameraDescription cropped(CameraDescription camera, const MitsubaObject& sensor, const Crop& crop) {
-    const auto offset = [&](const char* name) { return sensor.number(name).value_or(0.0f); };
-    const float middle_x = crop.x + 0.5f * crop.width + offset("principal_point_offset_x") * crop.film_width;
-    const float middle_y = crop.y + 0.5f * crop.height + offset("principal_point_offset_y") * crop.film_height;
-    camera.shift = {(middle_x - 0.5f * crop.film_width) / crop.height,
-                    (0.5f * crop.film_height - middle_y) / crop.height};
-    if (crop.height != crop.film_height) {
-        const double tangent = std::tan(0.5 * glm::radians(static_cast<double>(camera.fov_deg)));
-        camera.fov_deg = static_cast<float>(
-            glm::degrees(2.0 * std::atan(tangent * static_cast<double>(crop.height / crop.film_height))));
-    }
-    return camera;
 }
 
 /// 1, or far from the origin more: floats there would turn the view to a target at 1.
@@ -147,8 +123,13 @@ MitsubaView mitsuba_view(const MitsubaObject& sensor) {
     const float height = film.number("height").value_or(576.0f);
     if (!(width >= 1.0f && height >= 1.0f && width <= 65536.0f && height <= 65536.0f))
         film.fail(fmt::format("expected a picture of 1 to 65536 pixels on each side, got {}x{}", width, height));
-    const Crop crop = crop_of(film, width, height);
-    return {cropped(camera_of(sensor, width / height), sensor, crop), crop.width, crop.height};
+    const CropWindow crop = crop_of(film, width, height);
+    // The offset of the principal point is in sides of the film, right and down, as if the window were there.
+    const auto offset = [&](const char* name) { return sensor.number(name).value_or(0.0f); };
+    CropWindow seen = crop;
+    seen.x += offset("principal_point_offset_x") * width;
+    seen.y += offset("principal_point_offset_y") * height;
+    return {cropped(camera_of(sensor, width / height), width, height, seen), crop.width, crop.height};
 }
 
 void note_clipped(const MitsubaObject& sensor, const SceneDescription& scene) {

@@ -15,11 +15,11 @@ namespace pl {
 namespace {
 
 /// Color matching functions of the standard observer of 1931, and relative power of the illuminant D65. [CIE 15:2004, tables T.4 and T.1]
-struct Observed {
+struct ObservedColor {
     double x, y, z, d65;
 };
 constexpr double kFirst = 380.0, kStep = 5.0;
-constexpr std::array<Observed, 81> kObserved = {
+constexpr std::array<ObservedColor, 81> kObserved = {
     {{0.001368, 3.9e-05, 0.00645, 49.9755}, {0.002236, 6.4e-05, 0.01055, 52.3118},
      {0.004243, 0.00012, 0.02005, 54.6482}, {0.00765, 0.000217, 0.03621, 68.7015},
      {0.01431, 0.000396, 0.06785, 82.7549}, {0.02319, 0.00064, 0.1102, 87.1204},
@@ -64,14 +64,15 @@ constexpr std::array<Observed, 81> kObserved = {
 constexpr double kLast = kFirst + kStep * (kObserved.size() - 1);
 
 /// Linear between entries.
-Observed observed_at(double wavelength) {
+ObservedColor observed_at(double wavelength) {
     const double place = (wavelength - kFirst) / kStep;
     const auto i = std::min(static_cast<std::size_t>(place), kObserved.size() - 2);
     const double t = place - static_cast<double>(i);
-    const auto between = [&](double Observed::*of) {
+    const auto between = [&](double ObservedColor::*of) {
         return (1.0 - t) * kObserved[i].*of + t * kObserved[i + 1].*of;
     };
-    return {between(&Observed::x), between(&Observed::y), between(&Observed::z), between(&Observed::d65)};
+    return {between(&ObservedColor::x), between(&ObservedColor::y), between(&ObservedColor::z),
+            between(&ObservedColor::d65)};
 }
 
 double value_at(const WavelengthSpectrum& spectrum, double wavelength) {
@@ -96,7 +97,7 @@ glm::vec3 color_of(const WavelengthSpectrum& spectrum, SpectrumRole role) {
     glm::dvec3 sum(0.0);
     double of_flat = 0.0;
     for (double wavelength = kFirst; wavelength <= kLast; wavelength += 1.0) {
-        const Observed at = observed_at(wavelength);
+        const ObservedColor at = observed_at(wavelength);
         const double light = role == SpectrumRole::Lit ? at.d65 : 1.0;
         sum += light * value_at(spectrum, wavelength) * glm::dvec3(at.x, at.y, at.z);
         of_flat += light * at.y;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -9,6 +11,7 @@
 #include "core/io/files.h"
 #include "core/io/line_reader.h"
 #include "core/io/mitsuba/xml_text.h"
+#include "core/io/nearest_name.h"
 #include "core/io/texture_file.h"
 
 namespace pl {
@@ -28,13 +31,21 @@ constexpr std::array<std::string_view, 22> kWithoutEffect = {
 /// Likewise of objects; phase functions are those of media that scatter nothing.
 constexpr std::array<std::string_view, 3> kObjectsWithoutEffect = {"sampler", "rfilter", "phase"};
 
+bool is_of_name(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
+
 bool contains(const auto& names, std::string_view name) { return std::ranges::find(names, name) != names.end(); }
 
 }  // namespace
 
-MitsubaFile::MitsubaFile(const fs::path& path) : shared_(std::make_unique<MitsubaShared>()) {
+MitsubaFile::MitsubaFile(const fs::path& path, const Parameters& given) : shared_(std::make_unique<MitsubaShared>()) {
     shared_->folder = path.parent_path();
+    for (const auto& [name, value] : given) shared_->parameters.insert_or_assign(name, value);
     read(path, 0);
+    const std::vector<std::string> known = parameter_names();
+    for (const auto& [name, value] : given)
+        if (!contains(known, name))
+            throw Error(ErrorKind::Usage, fmt::format("-D {}: {} has no such parameter{}", name, path.string(),
+                                                      known.empty() ? ": it has none" : known_names(name, known)));
 }
 
 MitsubaFile::~MitsubaFile() = default;
@@ -85,6 +96,24 @@ void MitsubaFile::take(const MitsubaObject& object, int depth) {
     } else {
         objects_.push_back(object);
     }
+}
+
+/// Those that have a `default`, and those that attributes mention as $NAME; sorted.
+std::vector<std::string> MitsubaFile::parameter_names() const {
+    std::set<std::string> names;
+    const auto add_mentioned = [&names](std::string_view value) {
+        for (std::size_t at = value.find('$'); at != std::string_view::npos; at = value.find('$', at + 1)) {
+            const std::string_view rest = value.substr(at + 1);
+            const auto end = std::ranges::find_if_not(rest, is_of_name);
+            if (end != rest.begin()) names.emplace(rest.begin(), end);
+        }
+    };
+    for (const auto& text : texts_)
+        text->for_each_object([&](const MitsubaObject& object) {
+            if (object.element() == "default") names.insert(object.attribute("name"));
+            for (const pugi::xml_attribute& attribute : object.node_.attributes()) add_mentioned(attribute.value());
+        });
+    return {names.begin(), names.end()};
 }
 
 /// Of a scene that is a few folders below what it shares with others, so that it names folders above its own.

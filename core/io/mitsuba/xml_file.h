@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <glm/glm.hpp>
@@ -88,8 +89,11 @@ private:
 /// The objects of a scene in the order of the file, those of included files in the place of their `include`.
 class MitsubaFile {
 public:
-    /// Throws Error(Input): no XML, no `scene`, includes that are outside of the folder, in a circle or more than kMostIncludes.
-    explicit MitsubaFile(const std::filesystem::path& path);
+    using Parameters = std::vector<std::pair<std::string, std::string>>;
+
+    /// `given`: values of $parameters, before those of `default` elements. Throws Error(Input): no XML, no `scene`, includes that are
+    /// outside of the folder, in a circle or more than kMostIncludes; Error(Usage) for a given parameter that no file mentions.
+    explicit MitsubaFile(const std::filesystem::path& path, const Parameters& given = {});
     ~MitsubaFile();
     MitsubaFile(const MitsubaFile&) = delete;
     MitsubaFile& operator=(const MitsubaFile&) = delete;
@@ -107,6 +111,7 @@ private:
     void take(const MitsubaText& text, int depth);
     void take(const MitsubaObject& object, int depth);
     void add_folder(const MitsubaObject& path);
+    std::vector<std::string> parameter_names() const;
 
     std::unique_ptr<MitsubaShared> shared_;
     std::vector<std::unique_ptr<MitsubaText>> texts_;

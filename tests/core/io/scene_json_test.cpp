@@ -6,7 +6,6 @@
 
 #include "core/io/image.h"
 #include "core/io/load_scene.h"
-#include "core/io/nearest_name.h"
 #include "tests/support/catch.hpp"
 #include "tests/support/files/input_error.h"
 #include "tests/support/files/temporary_folder.h"
@@ -263,15 +262,6 @@ TEST_CASE("The assets are found from anywhere, and where the environment says") 
     CHECK_THAT(input_error([] { find_assets_dir(); }), contains("PATHLIGHT_ASSETS=") && contains("gone"));
     ::unsetenv("PATHLIGHT_ASSETS");
     std::filesystem::current_path(start);
-}
-
-TEST_CASE("The nearest name") {
-    const std::vector<std::string> names = {"default", "precomputed", "reinforcement"};
-    CHECK(nearest_name("defualt", names) == "default");
-    CHECK(nearest_name("reinforce", names) == "reinforcement");
-    CHECK(nearest_name("pre-computed", names) == "precomputed");
-    CHECK(nearest_name("x", {"ab", "a", "b"}) == "a");
-    CHECK(nearest_name("x", {}).empty());
 }
 
 TEST_CASE("Environment maps are scaled, and one that cannot be read is refused") {

@@ -30,7 +30,8 @@ PathRecord some_path() {
     VertexRecord floor;
     floor.origin = {0.0f, 1.0f, 4.0f};
     floor.position = {0.0f, 0.0f, 0.5f};
-    floor.light = LightRecord{.wi = {0.0f, 1.0f, 0.0f}, .position = Vec3f{0.0f, 2.0f, 0.5f}, .is_visible = true};
+    floor.light =
+        LightSampleRecord{.wi = {0.0f, 1.0f, 0.0f}, .position = Vec3f{0.0f, 2.0f, 0.5f}, .is_visible = true};
     VertexRecord escape;
     escape.is_escape = true;
     escape.origin = floor.position;

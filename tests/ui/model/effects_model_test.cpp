@@ -22,8 +22,8 @@ std::shared_ptr<PublishedFrame> frame_of_mirror() {
     return frame;
 }
 
-EffectCost cost_of(const EffectsModel& model, FeatureSet forced, std::size_t pairs) {
-    EffectCost cost{
+EffectTrialCost cost_of(const EffectsModel& model, FeatureSet forced, std::size_t pairs) {
+    EffectTrialCost cost{
         .forced = forced, .base_kernel = model.kernel(), .kernel = model.kernel_with(forced), .result = {}};
     cost.result.pairs = pairs;
     return cost;
@@ -61,7 +61,7 @@ TEST_CASE("Effects: a cost is that of a kernel, and is forgotten where it was no
     frame->settings.width = 99;
     model.update(*frame, std::nullopt);
     CHECK(model.cost_of(kEveryFeature) == nullptr);
-    EffectCost foreign = cost_of(model, kEveryFeature, 3);
+    EffectTrialCost foreign = cost_of(model, kEveryFeature, 3);
     foreign.base_kernel = "cpu/default/other";
     model.update(*frame, foreign);
     CHECK(model.cost_of(kEveryFeature) == nullptr);

@@ -176,6 +176,60 @@ TEST_CASE("Run table: a baseline that is over before the other run had a few sam
     CHECK(long_base.remark.find("Each at its end") == std::string::npos);
 }
 
+TEST_CASE("Run table: after nine samples of default a slower method is compared as soon as it has a few samples") {
+    const auto base = make_run({.seconds_per_sample = 0.01, .last_sample = 8, .with_reference = false});
+    for (const std::uint32_t last_sample : {4u, 8u, 128u}) {
+        const auto slow = make_run({.number = 2,
+                                    .method = MethodId::Reinforcement,
+                                    .seconds_per_sample = 0.1,
+                                    .last_sample = last_sample,
+                                    .in_progress = true,
+                                    .with_reference = false});
+        const RunRow row = compared_row(make_run_table(Runs{base, slow}, kThisPicture));
+        CAPTURE(last_sample, row.remark);
+        CHECK(row.gain.has_value() == (last_sample >= 8));
+        if (!row.gain) CHECK(row.remark == "Reinforcement CPU: too few samples to compare yet");
+    }
+}
+
+TEST_CASE("Run table: a run that is over with too few samples says how it goes on") {
+    const auto long_run = make_run({.number = 2, .method = MethodId::Reinforcement, .in_progress = true});
+    const Runs short_base{make_run({.last_sample = 4}), long_run};
+    const RunRow row = compared_row(make_run_table(short_base, kThisPicture));
+    CHECK(gain_text(row) == "too few samples");
+    CHECK(row.remark == "Default CPU has too few samples to compare, and has to go on: 1 renders default");
+    const Runs short_run{make_run({.in_progress = true}),
+                         make_run({.number = 2, .method = MethodId::Reinforcement, .last_sample = 4})};
+    CHECK(compared_row(make_run_table(short_run, kThisPicture)).remark ==
+          "Reinforcement CPU has too few samples to compare, and has to go on: 3 renders reinforcement");
+    // Once it does go on, waiting helps.
+    const Runs goes_on{make_run({.last_sample = 4, .in_progress = true}),
+                       make_run({.number = 2, .method = MethodId::Reinforcement})};
+    CHECK(compared_row(make_run_table(goes_on, kThisPicture)).remark ==
+          "Default CPU: too few samples to compare yet");
+}
+
+TEST_CASE("Run table: a repetition that is over with too few samples keeps no other from being compared") {
+    // Its samples took so long that it counts as a repetition.
+    const auto broken_off = make_run({.number = 1, .seconds_per_sample = 3.0, .last_sample = 4});
+    const auto base = make_run({.number = 2});
+    base->label.seed = 2;
+    const RunRow row = compared_row(make_run_table(Runs{broken_off, base, learned_run(3)}, kThisPicture));
+    REQUIRE(row.gain);
+    CHECK_THAT(row.gain->net.value, WithinRel(2.0, 1e-9));
+    CHECK_THAT(row.remark, contains("one run each"));
+}
+
+TEST_CASE("Run table: errors against a reference that few samples have give way to the noise that all have") {
+    const auto base = make_run({});
+    // A reference that came late finds no pictures of later points.
+    for (LivePoint& point : base->points)
+        if (point.spp > 4) point.metrics.reset();
+    const RunRow row = compared_row(make_run_table(Runs{base, learned_run(2)}, kThisPicture));
+    REQUIRE(row.gain);
+    CHECK_THAT(row.remark, contains("own noise: there is no reference"));
+}
+
 TEST_CASE("Run table: says what to do while there is nothing to compare") {
     CHECK_THAT(make_run_table({}, kThisPicture).note, contains("Nothing measured yet"));
     CHECK_THAT(make_run_table(Runs{make_run({})}, kThisPicture + 1).note, contains("Nothing measured yet"));
@@ -189,10 +243,7 @@ TEST_CASE("Run table: says what to do while there is nothing to compare") {
     const Runs few{make_run({}), make_run({.number = 3, .method = MethodId::Reinforcement, .last_sample = 4})};
     CHECK(gain_text(compared_row(make_run_table(few, kThisPicture))) == "too few samples");
     CHECK_THAT(compared_row(make_run_table(few, kThisPicture)).remark,
-               contains("Reinforcement CPU: too few samples"));
-    const Runs short_base{make_run({.last_sample = 4}), make_run({.number = 3, .method = MethodId::Reinforcement})};
-    CHECK_THAT(compared_row(make_run_table(short_base, kThisPicture)).remark,
-               contains("Default CPU: too few samples"));
+               contains("Reinforcement CPU has too few samples"));
     // A default run of another picture is no baseline.
     const Runs other{make_run({.picture = 8}), make_run({.number = 2, .method = MethodId::Reinforcement})};
     CHECK_THAT(make_run_table(other, kThisPicture).rows[0].remark, contains("nothing to be compared with yet"));

@@ -57,6 +57,17 @@ TEST_CASE("Script: every command is understood") {
     CHECK(parse_script("", "x").empty());
 }
 
+TEST_CASE("Script: a wait has a limit in passes") {
+    const auto commands = parse_script("0 wait headline ~ no pixel within sight within 12\n0 wait_spp 7\n"
+                                       "0 wait spp >= 3\n0 expect headline ~ within 12",
+                                       "x");
+    CHECK(commands[0].condition.value == "no pixel within sight");
+    CHECK(commands[0].most_passes == 12);
+    CHECK(commands[1].most_passes == ScriptCommand::kMostPasses);
+    CHECK(commands[2].most_passes == ScriptCommand::kMostPasses);
+    CHECK(commands[3].condition.value == "within 12");  // an expectation waits for nothing
+}
+
 TEST_CASE("Script: a bad line names file, line and what was expected") {
     const std::vector<std::pair<std::string, std::string>> cases{
         {"0 move 1 2\nx quit", "tour.script:2: expected a frame number, got 'x'"},
@@ -82,6 +93,11 @@ TEST_CASE("Script: a bad line names file, line and what was expected") {
         {"0 expect method = default", "expected one of == != < <= > >= ~, got '='"},
         {"0 expect method ==", "expected a value to compare with"},
         {"0 wait_spp many", "expected a number of samples, got 'many'"},
+        {"0 wait spp >= 9 within 0", "expected a number of passes, a whole number from 1, got '0'"},
+        {"0 wait spp >= 9 within -1", "got '-1'"},
+        {"0 wait spp >= 9 within 1.5", "got '1.5'"},
+        {"0 wait spp >= 9 within 5 s", "got '5 s'"},
+        {"0 wait spp >= 9 within 18446744073709551616", "got '18446744073709551616'"},
     };
     for (const auto& [script, part] : cases) {
         INFO(script);

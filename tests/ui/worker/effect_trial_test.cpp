@@ -43,7 +43,7 @@ TEST_CASE("Effects: a trial measures passes in turns, and the forced effects of 
         const auto cost = worker.status().effect_cost;
         return cost && cost->done;
     }));
-    const EffectCost cost = *worker.status().effect_cost;
+    const EffectTrialCost cost = *worker.status().effect_cost;
     CHECK(cost.forced == kEveryFeature);
     CHECK(cost.result.pairs == PairedCost::kPairs);
     CHECK(cost.result.base_seconds > 150e-6);

@@ -132,6 +132,51 @@ TEST_CASE("mitsuba: parameters and included files") {
                contains("in a circle?"));
 }
 
+TEST_CASE("mitsuba: parameters are given from outside, and those that no file has are refused") {
+    const TemporaryFolder folder;
+    folder.write("wall.xml", scene_of("<default name=\"green\" value=\"0\"/><bsdf type=\"diffuse\" id=\"wall\"><rgb "
+                                      "name=\"reflectance\" value=\"$gray $green 0\"/></bsdf>"));
+    const auto file = folder.write("s.xml", scene_of("<default name=\"gray\" value=\"0.25\"/>"
+                                                     "<default name=\"unused\" value=\"\"/>"
+                                                     "<include filename=\"wall.xml\"/><shape type=\"$shape\"><ref "
+                                                     "id=\"wall\"/></shape>"));
+    using Parameters = std::vector<std::pair<std::string, std::string>>;
+    const auto load = [&](const Parameters& given) { return load_scene(file.string(), "", {.parameters = given}); };
+    const auto color = [&](const Parameters& given) { return load(given).materials.at(0).albedo; };
+    CHECK(color({{"shape", "rectangle"}}) == glm::vec3(0.25f, 0.0f, 0.0f));
+    CHECK(color({{"shape", "rectangle"}, {"gray", "0.5"}}) == glm::vec3(0.5f, 0.0f, 0.0f));
+    CHECK(color({{"gray", "1"}, {"green", "0.5"}, {"shape", "cube"}, {"gray", "0.75"}, {"unused", "x"}}) ==
+          glm::vec3(0.75f, 0.5f, 0.0f));
+    const auto complaint = [&](const Parameters& given) {
+        try {
+            load(given);
+        } catch (const Error& error) {
+            CHECK(error.kind() == ErrorKind::Usage);
+            return std::string(error.what());
+        }
+        return std::string("nothing");
+    };
+    CHECK_THAT(
+        complaint({{"shape", "rectangle"}, {"grey", "1"}}),
+        contains("-D grey: ") &&
+            contains("s.xml has no such parameter, did you mean 'gray'? Known are: gray, green, shape, unused"));
+    CHECK_THAT(complaint({{"$gray", "1"}}), contains("-D $gray: "));
+    CHECK_THAT(input_error([&] { load({{"shape", "rectangle"}, {"gray", "red"}}); }), contains("'red'"));
+    const auto plain = folder.write("plain.xml", scene_of(kSquare));
+    CHECK_THAT(error_message(ErrorKind::Usage,
+                             [&] {
+                                 load_scene(plain.string(), "", {.parameters = {{"gray", "1"}}});
+                             }),
+               contains("plain.xml has no such parameter: it has none"));
+    folder.write("m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    CHECK_THAT(error_message(ErrorKind::Usage,
+                             [&] {
+                                 load_scene((folder.path() / "m.obj").string(), "", {.parameters = {{"gray", "1"}}});
+                             }),
+               contains("-D gray: expected a Mitsuba scene, a .xml, which alone has $parameters; got ") &&
+                   contains("m.obj"));
+}
+
 TEST_CASE("mitsuba: ids of objects inside of others, and other names of them") {
     const SceneDescription scene = load_mitsuba_text(
         "<bsdf type=\"twosided\"><bsdf type=\"diffuse\" id=\"wall\"><rgb name=\"reflectance\" "

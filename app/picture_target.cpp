@@ -1,0 +1,52 @@
+#include "app/picture_target.h"
+
+#include <array>
+#include <cstdio>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "core/base/error.h"
+#include "core/io/picture_file.h"
+
+namespace pl {
+namespace {
+
+constexpr std::array kWritten{ImageKind::Png, ImageKind::Exr, ImageKind::Pfm};
+
+}  // namespace
+
+bool is_standard_output(const std::string& output) { return output == "-" || output.ends_with(":-"); }
+
+ImageKind picture_kind(const std::string& output) {
+    if (!is_standard_output(output)) return image_kind(output);
+    if (output == "-") return ImageKind::Png;
+    for (const ImageKind kind : kWritten)
+        if (output == fmt::format("{}:-", name_of(kind))) return kind;
+    throw Error(ErrorKind::Usage, fmt::format("-o: expected -, png:-, exr:- or pfm:-, got '{}'", output));
+}
+
+void require_target(const std::string& output, Console& console) {
+    picture_kind(output);
+    if (!is_standard_output(output)) {
+        require_writable(output);
+        return;
+    }
+    if (console.json())
+        throw Error(ErrorKind::Usage,
+                    fmt::format("-o {}: expected a file with --json, whose lines go to standard output", output));
+    if (isatty(STDOUT_FILENO) != 0)
+        throw Error(ErrorKind::Usage,
+                    fmt::format("-o {}: expected standard output to be a pipe or a file, got a terminal", output));
+    console.keep_output_for_data();
+}
+
+void write_picture(const std::string& output, const Snapshot& snapshot, const DisplaySettings& display,
+                   const ImageMetadata& metadata, Console& console) {
+    if (is_standard_output(output))
+        console.data(encode_picture(picture_kind(output), snapshot, display, metadata));
+    else
+        save_picture(output, snapshot, display, metadata);
+}
+
+}  // namespace pl
