@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "app/build_info.h"
 #include "app/events.h"
 #include "app/options.h"
 
