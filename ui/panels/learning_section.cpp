@@ -90,7 +90,7 @@ void draw_field(ViewerModel& model) {
             "How a method that learns represents directions. Table: cells of each volume. SD-tree: quadtrees at the "
             "leaves of a tree over space. Lobes: a mixture of smooth peaks in each volume. Neural: tables with a "
             "network over all volumes as prior. Neural vertex: a network that gives each vertex a mixture of smooth "
-            "peaks. All but the table on the CPU; precomputed maps are tables.",
+            "peaks. SD-tree and lobes on the CPU alone; precomputed maps are tables.",
             &representation, "Table\0SD-tree\0Lobes\0Neural\0Neural vertex\0")) {
         settings.representation = static_cast<Representation>(representation);
         if (!has_target(settings.representation, settings.learning.target))
