@@ -25,8 +25,10 @@ void add_row(KernelNames& names, const KernelRow<Kernel>& row, const std::string
 KernelNames all_kernels() {
     KernelNames names;
     any_method_kernel([&]<int kEntry>() {
-        const std::string method(TypeAt<kEntry, MethodList>::Info::kInfo.name);
-        add_row(names, cuda::picture_kernels<kEntry>(), "trace_paths " + method + " entry " + std::to_string(kEntry));
+        using Kernel = TypeAt<kEntry, MethodList>;
+        if constexpr (!Kernel::kIsForHostAlone)
+            add_row(names, cuda::picture_kernels<kEntry>(),
+                    "trace_paths " + std::string(Kernel::Info::kInfo.name) + " entry " + std::to_string(kEntry));
         return false;
     });
     add_row(names, cuda::kProbeKernels, "trace_paths probes");

@@ -53,24 +53,32 @@ Observation meeting(float emitted, float share = 1.0f, float albedo = 0.5f) {
 
 }  // namespace
 
-TEST_CASE("Each target is served by the integrator with the least memory per path") {
-    using enum LearningTarget;
-    using enum LearnedLight;
-    const auto serving = [](const LearningSettings& learning, bool lights) {
+TEST_CASE("Each target is served by its integrator, passes that train nothing by one whose field stays constant") {
+    const auto serving = []<class F>(std::type_identity<F>, MethodId method, LearningTarget target, bool trains) {
         int served = -1;
-        with_method_kernel(MethodId::Reinforcement, learning, lights, [&]<int kEntry>() { served = kEntry; });
+        with_method_kernel<F>(method, {.target = target}, trains, [&]<int kEntry>() { served = kEntry; });
         return served;
     };
-    constexpr int kExpectedSarsa = 3, kSarsa = 4, kMonteCarlo = 5;
-    for (const bool lights : {false, true}) {
-        CHECK(serving({}, lights) == kExpectedSarsa);
-        CHECK(serving({LearningTarget::Sarsa, All}, lights) == kSarsa);
-        CHECK(serving({LearningTarget::MonteCarlo, All}, lights) == kMonteCarlo);
-        CHECK(serving({LearningTarget::MonteCarlo, Indirect}, lights) == kMonteCarlo);
+    constexpr std::type_identity<TableField> kTable;
+    constexpr std::type_identity<SdTreeField> kTree;
+    constexpr auto kReinforcement = MethodId::Reinforcement;
+    using enum LearningTarget;
+    constexpr int kDefault = 0, kFrozen = 1, kExpectedSarsa = 2, kSarsa = 3, kMonteCarlo = 4, kOfTree = 6;
+    CHECK(serving(kTable, kReinforcement, ExpectedSarsa, true) == kExpectedSarsa);
+    CHECK(serving(kTable, kReinforcement, Sarsa, true) == kSarsa);
+    CHECK(serving(kTable, kReinforcement, MonteCarlo, true) == kMonteCarlo);
+    for (const LearningTarget target : {ExpectedSarsa, Sarsa, MonteCarlo}) {
+        CHECK(serving(kTable, kReinforcement, target, false) == kFrozen);
+        for (const bool trains : {false, true}) {
+            CHECK(serving(kTable, MethodId::Precomputed, target, trains) == kFrozen);
+            CHECK(serving(kTable, MethodId::Default, target, trains) == kDefault);
+        }
     }
-    CHECK(serving({LearningTarget::ExpectedSarsa, Indirect}, false) == kExpectedSarsa);
-    CHECK(serving({LearningTarget::ExpectedSarsa, Indirect}, true) == kExpectedSarsa);
-    CHECK(serving({LearningTarget::Sarsa, Indirect}, true) == kSarsa);
+    // Other representations have one kernel for passes that train and for those that do not, and one target.
+    for (const bool trains : {false, true}) {
+        CHECK(serving(kTree, kReinforcement, ExpectedSarsa, trains) == kOfTree);
+        CHECK(serving(kTree, kReinforcement, Sarsa, trains) == -1);
+    }
 }
 
 TEST_CASE("Sarsa takes the learned radiance of the sampled direction") {
