@@ -1,6 +1,8 @@
 // Targets of reinforcement learning, one call at a time: their training samples for a path of known radiance.
 #include "core/kernel/methods/learning_target.h"
 
+#include <type_traits>
+
 #include "core/kernel/guiding/update_volume.h"
 #include "tests/support/catch.hpp"
 #include "tests/support/field/field_fixture.h"
