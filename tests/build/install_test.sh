@@ -41,7 +41,7 @@ while read -r library; do
     grep -qF "\`$library\`" "$root/THIRD-PARTY.md" || fail "THIRD-PARTY.md does not name $library, which the program needs"
 done <"$work/libraries"
 
-[[ $("$program" --version) == "pathlight $version" ]] || fail "--version is not $version"
+[[ $("$program" --version | head -n 1) == "pathlight $version" ]] || fail "--version is not $version"
 grep -qF "pathlight $version" "$installed/share/man/man1/pathlight.1" || fail "the manual page is not of $version"
 grep -qx "version: $version" "$root/CITATION.cff" || fail "CITATION.cff is not of $version"
 grep -qF "## [$version]" "$root/CHANGELOG.md" || fail "CHANGELOG.md has no $version"
@@ -61,14 +61,15 @@ complete_words() {
     printf '%s\n' "${COMPREPLY[@]}"
 }
 has_line() { grep -qxF -e "$1"; }
-commands=$("$program" --help | sed -n 's/^  pathlight \[*\([a-z]*\).*/\1/p')
+# `help` is a word before a subcommand, not one with options of its own.
+commands=$("$program" --help | sed -n 's/^  pathlight \[*\([a-z]*\).*/\1/p' | grep -vx help)
 [[ $(wc -w <<<"$commands") -gt 10 ]] || fail "--help has the subcommands '$commands'"
 for command in $commands; do
     complete_words "${command:0:2}" | has_line "$command" || fail "bash does not complete $command"
     [[ $man == *$'\n'"$command"* ]] || fail "the manual page lacks $command"
     [[ $zsh == *"'$command:"* ]] || fail "zsh does not complete $command"
     answers=$(complete_words "$command" --)
-    options=$("$program" "$command" --help | grep -oE '^  (-[a-z], )?--[a-z-]+' | grep -oE -e '--[a-z-]+')
+    options=$("$program" "$command" --help-all | grep -oE '^  (-[a-z], )?--[a-z-]+' | grep -oE -e '--[a-z-]+')
     [[ $(wc -w <<<"$options") -gt 1 ]] || fail "the help of $command has the options '$options'"
     for option in $options --help --version --list-methods --list-views --licenses; do
         has_line "$option" <<<"$answers" || fail "bash does not complete $command $option"

@@ -41,6 +41,8 @@ FieldSettings random_field(Draws& draws) {
     field.learning.light = draws.one_of({LearnedLight::All, LearnedLight::Indirect});
     field.representation = draws.one_of(
         {Representation::Table, Representation::Table, Representation::Neural, Representation::NeuralVertex});
+    if (!has_target(field.representation, field.learning.target))
+        field.learning.target = LearningTarget::ExpectedSarsa;
     field.precompute_samples = draws.one_of({1, 4, 9});
     field.lookup = draws.one_of({Lookup::KdTree, Lookup::Linear, Lookup::Grid});
     field.refine_share = draws.one_of({kRefineByRecords, 0.0f, 0.5f, 1.0f});
