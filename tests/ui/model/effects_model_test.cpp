@@ -54,7 +54,8 @@ TEST_CASE("Effects: a cost is that of a kernel, and is forgotten where it was no
     model.update(*frame, std::nullopt);
     model.update(*frame, cost_of(model, kEveryFeature, 7));
     REQUIRE(model.cost_of(kEveryFeature) != nullptr);
-    CHECK(model.cost_of(features(Feature::Textures)) == model.cost_of(kEveryFeature));
+    CHECK(model.cost_of(features(Feature::Instances)) == model.cost_of(kEveryFeature));
+    CHECK(model.cost_of(features(Feature::Textures)) == nullptr);
     CHECK(model.cost_of({}) == nullptr);
     model.update(*frame, cost_of(model, kEveryFeature, 9));
     CHECK(model.cost_of(kEveryFeature)->result.pairs == 9);
