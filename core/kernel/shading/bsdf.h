@@ -107,7 +107,7 @@ public:
         return smooth() && lobes_.kind != SurfaceKind::Plastic ? 0.0f : std::fabs(z);
     }
     /// BSDF times |cos theta_i|, 1/sr, without delta lobes, for a direction whose cosine() is not 0.
-    PL_HOST_APART PL_HD inline Vec3f eval(const SurfacePoint&, Vec3f wi, float cos_i) const {
+    PL_HD Vec3f eval(const SurfacePoint&, Vec3f wi, float cos_i) const {
         switch (lobes_.kind) {
         case SurfaceKind::Diffuse: return lambert_eval(reflectance_, cos_i);
         case SurfaceKind::Conductor: return conductor().eval(frame_.to_local(wi));
@@ -117,7 +117,7 @@ public:
         }
         return Vec3f{0.0f};
     }
-    PL_HOST_APART PL_HD inline float pdf_sa(const SurfacePoint& surface, Vec3f wi) const {
+    PL_HD float pdf_sa(const SurfacePoint& surface, Vec3f wi) const {
         switch (lobes_.kind) {
         case SurfaceKind::Diffuse: return lambert_pdf_sa(surface, wi);
         case SurfaceKind::Conductor: return conductor().pdf_sa(frame_.to_local(wi));
