@@ -128,14 +128,13 @@ std::string man_page() {
     text += ".SS Questions\n";
     for (const ParserFlag& flag : parser_flags(Command::View))
         text += man_option(split_at_commas(flag.flags), "", flag.help);
-    text += ".SH EXAMPLES\n.TP\n\\fBpathlight\\fR\nOpens the Cornell box in a window.\n"
-            ".TP\n\\fBpathlight render door \\-\\-method reinforcement \\-\\-spp 256 \\-o door.exr\\fR\n"
-            "Renders the scene \"door\" to a linear picture.\n"
-            ".TP\n\\fBpathlight info room.glb\\fR\nTells what is in a file.\n.SH EXIT STATUS\n" +
-            roff(exit_code_help()) +
-            ".SH ENVIRONMENT\n.TP\n\\fBPATHLIGHT_ASSETS\\fR\nFolder that holds the folder \"scenes\", in place of "
-            "the one "
-            "that was installed with the program.\n.TP\n\\fBNO_COLOR\\fR\nMessages are not colored.\n";
+    text += ".SH EXAMPLES\n.nf\n";
+    for (const CommandInfo& info : all_commands())
+        for (const std::string_view example : info.examples) text += roff(example) + "\n";
+    text +=
+        ".fi\n.SH EXIT STATUS\n" + roff(exit_code_help()) +
+        ".SH ENVIRONMENT\n.TP\n\\fBPATHLIGHT_ASSETS\\fR\nFolder that holds the folder \"scenes\", in place of the "
+        "installed one.\n.TP\n\\fBNO_COLOR\\fR\nMessages are not colored.\n";
     return text;
 }
 

@@ -23,7 +23,8 @@ std::unique_ptr<RenderBackend> make_beside_window(const std::string& name, int t
     return make_own_backend(name, threads > 0 ? threads : std::max(1, usable_share() - 1));
 }
 
-/// Vertical axis, camera, parameters, materials and their reading, by the command line, belong to the scene that it names, not to scenes opened later.
+/// Vertical axis, camera, parameters, materials and their reading, by the command line, belong to the scene that it names, not to scenes
+/// opened later.
 LoadSettings load_settings_of(const SceneRequest& scene, const Options& opened) {
     LoadSettings settings{.knobs = scene.knobs, .default_light = opened.load.default_light};
     if (scene.name == opened.scene) {

@@ -7,25 +7,36 @@
 namespace pl {
 namespace {
 
-std::vector<LaneKernels> find_usable_kernels() {
-    std::vector<LaneKernels> usable{kLaneKernelsBaseline};
+struct CompiledKernels {
+    LaneKernels kernels;
+    bool run_here = true;  ///< whether this machine has their instructions
+};
+
+/// Narrowest vectors first.
+std::vector<CompiledKernels> compiled_kernels() {
+    std::vector<CompiledKernels> compiled{{kLaneKernelsBaseline}};
 #ifdef PL_LANE_CLONES
-    if (PL_WIDEST_LANES >= 1 && __builtin_cpu_supports("avx2")) usable.push_back(kLaneKernelsAvx2);
-    if (PL_WIDEST_LANES >= 2 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
-        __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512dq"))
-        usable.push_back(kLaneKernelsAvx512);
+    if (PL_WIDEST_LANES >= 1) compiled.push_back({kLaneKernelsAvx2, __builtin_cpu_supports("avx2") != 0});
+    if (PL_WIDEST_LANES >= 2)
+        compiled.push_back(
+            {kLaneKernelsAvx512, __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
+                                     __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512dq")});
 #endif
+    return compiled;
+}
+
+std::vector<LaneKernels> find_usable_kernels() {
+    std::vector<LaneKernels> usable;
+    for (const CompiledKernels& compiled : compiled_kernels())
+        if (compiled.run_here) usable.push_back(compiled.kernels);
     return usable;
 }
 
 }  // namespace
 
 std::vector<std::string_view> compiled_lane_names() {
-    std::vector<std::string_view> names{kLaneKernelsBaseline.isa};
-#ifdef PL_LANE_CLONES
-    if (PL_WIDEST_LANES >= 1) names.emplace_back(kLaneKernelsAvx2.isa);
-    if (PL_WIDEST_LANES >= 2) names.emplace_back(kLaneKernelsAvx512.isa);
-#endif
+    std::vector<std::string_view> names;
+    for (const CompiledKernels& compiled : compiled_kernels()) names.emplace_back(compiled.kernels.isa);
     return names;
 }
 

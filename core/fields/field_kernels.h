@@ -18,7 +18,7 @@ inline Representation sampled_representation(const AnyFieldView& field) {
 }
 
 /// Calls visit.operator()<kEntry>() for the entry of MethodList that serves passes of a method with a representation, see
-/// with_method_kernel(). Throws Error(Runtime) if there is none: see has_kernels_of().
+/// with_method_kernel(). Throws Error(Runtime) if there is none, see has_target().
 template <class Visit>
 void with_kernel_of(Representation representation, MethodId method, const LearningSettings& learning, bool trains,
                     Visit&& visit) {

@@ -165,6 +165,11 @@ void RenderControls::cancel_precomputation() {
 
 /// Whether a back end serves the field; says so if it does not.
 bool RenderControls::is_served(const FieldSettings& field, const std::string& backend) {
+    if (!has_target(field.representation, field.learning.target)) {
+        messages_.say(MessageLevel::Warning,
+                      "Sarsa and Monte Carlo train tables alone: this field learns by Expected Sarsa");
+        return false;
+    }
     if (backend == "cpu" || has_tables(field.representation)) return true;
     messages_.say(MessageLevel::Warning,
                   fmt::format("{} has no kernels for {}: {} the CPU", back_end_label(backend),

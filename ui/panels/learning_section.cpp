@@ -49,7 +49,7 @@ void draw_learning_targets(ViewerModel& model, FieldSettings settings) {
     changed |= choice_row("Light",
                           "With light samples: learn all incident radiance, or only the part without light samples.",
                           &light, "All\0Indirect\0");
-    if (!changed || !has_target(settings.representation, static_cast<LearningTarget>(target))) return;
+    if (!changed) return;
     settings.rate = kRates[static_cast<std::size_t>(rate)];
     settings.learning = {static_cast<LearningTarget>(target), static_cast<LearnedLight>(light)};
     model.render().set_field(settings);

@@ -111,8 +111,7 @@ void draw_estimator(ViewerModel& model) {
             "Roulette",
             "The rule of Russian roulette and splitting. Spare: the path throughput ends paths, a large contribution "
             "estimate keeps or splits them. Albedo: the throughput alone. Field: the contribution estimate alone. "
-            "Off: "
-            "paths end by the max depth alone.",
+            "Off: paths end by the max depth alone.",
             &roulette, "Spare\0Albedo\0Field\0Off\0"))
         model.render().set_roulette(static_cast<RouletteRule>(roulette));
     int guiding = static_cast<int>(model.render().settings().guiding);
