@@ -36,9 +36,9 @@ constexpr std::array kTargets{Named<LearningTarget>{LearningTarget::ExpectedSars
                               Named<LearningTarget>{LearningTarget::MonteCarlo, "monte-carlo"}};
 constexpr std::array kLights{Named<LearnedLight>{LearnedLight::All, "all"},
                              Named<LearnedLight>{LearnedLight::Indirect, "indirect"}};
-constexpr std::array kRoulettes{
-    Named<RouletteRule>{RouletteRule::Spare, "spare"}, Named<RouletteRule>{RouletteRule::Albedo, "albedo"},
-    Named<RouletteRule>{RouletteRule::Field, "field"}, Named<RouletteRule>{kNoRoulette, "off"}};
+constexpr std::array kRoulettes{Named<RouletteRule>{RouletteRule::Spare, "spare"},
+                                Named<RouletteRule>{RouletteRule::Albedo, "albedo"},
+                                Named<RouletteRule>{kNoRoulette, "off"}};
 constexpr std::array kGuidings{Named<GuidingRule>{GuidingRule::Paying, "paying"},
                                Named<GuidingRule>{GuidingRule::Always, "always"}};
 constexpr std::array kImageKinds{Named<ImageKind>{ImageKind::Png, name_of(ImageKind::Png)},

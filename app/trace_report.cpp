@@ -1,7 +1,6 @@
 #include "app/trace_report.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "app/parse_values.h"
 #include "core/diagnose/pixel_paths.h"
@@ -9,10 +8,6 @@
 
 namespace pl {
 namespace {
-
-std::string vertex_name(std::int32_t index) {
-    return index < 0 ? std::string("the camera") : fmt::format("vertex {}", index);
-}
 
 std::string ending_text(PathEnd end) {
     switch (end) {
@@ -59,16 +54,14 @@ std::string light_text(const LightSampleRecord& light) {
 }
 
 std::string roulette_text(const RouletteRecord& roulette) {
-    const std::string outcome = roulette.branches == 0   ? std::string("ends")
-                                : roulette.branches == 1 ? std::string("continues")
-                                                         : fmt::format("{} branches", roulette.branches);
-    return fmt::format("  roulette    contribution estimate {}, expected branches {}: {}\n",
-                       print_float(roulette.estimate), print_float(roulette.expected_branches), outcome);
+    return fmt::format("  roulette    contribution estimate {}, survival probability {}: {}\n",
+                       print_float(roulette.estimate), print_float(roulette.survival_probability),
+                       roulette.survives ? "continues" : "ends");
 }
 
 std::string direction_text(const ScatterRecord& direction) {
-    std::string text = fmt::format("  direction   to vertex {} by {}, wi {}\n", direction.next,
-                                   name_of(direction.technique), print_vector(direction.wi));
+    std::string text =
+        fmt::format("  direction   by {}, wi {}\n", name_of(direction.technique), print_vector(direction.wi));
     if (direction.technique != Technique::Delta)
         text += fmt::format("              pdf {} (bsdf {}, field {}), f cos {}\n", print_float(direction.pdf_sa),
                             print_float(direction.bsdf_pdf_sa), print_float(direction.field_pdf_sa),
@@ -77,14 +70,13 @@ std::string direction_text(const ScatterRecord& direction) {
 }
 
 std::string vertex_text(const VertexRecord& vertex, const SceneDescription& scene) {
-    std::string text = fmt::format(", from {}, bounce {}, branch {}\n  wo          {}\n  throughput  {}\n",
-                                   vertex_name(vertex.parent), vertex.bounce, vertex.branch, print_vector(vertex.wo),
+    std::string text = fmt::format("\n  wo          {}\n  throughput  {}\n", print_vector(vertex.wo),
                                    print_vector(vertex.throughput));
     if (!vertex.is_escape) text += surface_text(vertex, scene);
     text += emission_text(vertex.emission);
     if (vertex.light) text += light_text(*vertex.light);
     if (vertex.roulette) text += roulette_text(*vertex.roulette);
-    for (const ScatterRecord& direction : vertex.scattered) text += direction_text(direction);
+    if (vertex.scattered) text += direction_text(*vertex.scattered);
     return text;
 }
 
@@ -108,9 +100,7 @@ Json light_json(const LightSampleRecord& light) {
 }
 
 Json direction_json(const ScatterRecord& direction) {
-    return {{"branch", direction.branch},
-            {"next", direction.next},
-            {"technique", name_of(direction.technique)},
+    return {{"technique", name_of(direction.technique)},
             {"wi", vector_json(direction.wi)},
             {"pdf", direction.pdf_sa},
             {"bsdf_pdf", direction.bsdf_pdf_sa},
@@ -133,22 +123,18 @@ Json surface_json(const VertexRecord& vertex, const SceneDescription& scene) {
 }
 
 Json vertex_json(const VertexRecord& vertex, const SceneDescription& scene) {
-    Json json{{"parent", vertex.parent < 0 ? Json() : Json(vertex.parent)},
-              {"branch", vertex.branch},
-              {"bounce", vertex.bounce},
-              {"wo", vector_json(vertex.wo)},
+    Json json{{"wo", vector_json(vertex.wo)},
               {"throughput", vector_json(vertex.throughput)},
               {"surface", vertex.is_escape ? Json() : surface_json(vertex, scene)},
               {"emission", emission_json(vertex.emission)},
               {"light", vertex.light ? light_json(*vertex.light) : Json()},
               {"roulette", Json()},
-              {"scattered", Json::array()},
+              {"scattered", vertex.scattered ? direction_json(*vertex.scattered) : Json()},
               {"contribution", vector_json(vertex.contribution())}};
     if (vertex.roulette)
         json["roulette"] = {{"estimate", vertex.roulette->estimate},
-                            {"expected_branches", vertex.roulette->expected_branches},
-                            {"branches", vertex.roulette->branches}};
-    for (const ScatterRecord& direction : vertex.scattered) json["scattered"].push_back(direction_json(direction));
+                            {"survival_probability", vertex.roulette->survival_probability},
+                            {"survives", vertex.roulette->survives}};
     return json;
 }
 
@@ -156,11 +142,9 @@ Json vertex_json(const VertexRecord& vertex, const SceneDescription& scene) {
 
 std::string path_line(const TracedPath& traced) {
     const PathRecord& path = traced.path;
-    std::vector<std::string_view> ends;
-    for (const BranchEnd& end : path.ends) ends.push_back(name_of(end.reason));
-    return fmt::format("sample {}: light {}, radiance {}; vertices {}{}; ends: {}\n", traced.sample,
+    return fmt::format("sample {}: light {}, radiance {}; vertices {}{}; end: {}\n", traced.sample,
                        print_float(path_light(path)), print_vector(path.radiance), path.vertices.size(),
-                       path.is_guided ? ", guided" : "", fmt::join(ends, ", "));
+                       path.is_guided ? ", guided" : "", name_of(path.end));
 }
 
 std::string path_text(const TracedPath& traced) {
@@ -169,14 +153,10 @@ std::string path_text(const TracedPath& traced) {
     std::string text =
         fmt::format("pixel {},{}, sample {}, seed {}, {}{}\n", path.pixel % width, path.pixel / width, traced.sample,
                     traced.settings.seed, info_of(traced.settings.method).name, path.is_guided ? ", guided" : "");
-    for (std::size_t i = 0; i < path.vertices.size(); ++i) {
+    for (std::size_t i = 0; i < path.vertices.size(); ++i)
         text += fmt::format("vertex {}{}", i, vertex_text(path.vertices[i], traced.scene));
-        for (const BranchEnd& end : path.ends)
-            if (end.vertex == i)
-                text += fmt::format("  end         of branch {}: {}\n", end.branch, ending_text(end.reason));
-    }
-    return text + fmt::format("radiance {}; segments {}, shadow rays {}, branches {}\n", print_vector(path.radiance),
-                              path.segments, path.shadow_rays, path.ends.size());
+    return text + fmt::format("  end         {}\nradiance {}; segments {}, shadow rays {}\n", ending_text(path.end),
+                              print_vector(path.radiance), path.segments, path.shadow_rays);
 }
 
 Json path_json(const TracedPath& traced) {
@@ -192,10 +172,8 @@ Json path_json(const TracedPath& traced) {
               {"segments", path.segments},
               {"shadow_rays", path.shadow_rays},
               {"vertices", Json::array()},
-              {"ends", Json::array()}};
+              {"end", name_of(path.end)}};
     for (const VertexRecord& vertex : path.vertices) json["vertices"].push_back(vertex_json(vertex, traced.scene));
-    for (const BranchEnd& end : path.ends)
-        json["ends"].push_back({{"branch", end.branch}, {"vertex", end.vertex}, {"reason", name_of(end.reason)}});
     return json;
 }
 

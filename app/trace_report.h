@@ -18,7 +18,7 @@ struct TracedPath {
     std::uint32_t sample = 0;  ///< its number in the picture
 };
 
-/// "sample 3: light 0.25, radiance 0.2,0.3,0.1; vertices 4, guided; ends: roulette": one of several paths.
+/// "sample 3: light 0.25, radiance 0.2,0.3,0.1; vertices 4, guided; end: roulette": one of several paths.
 std::string path_line(const TracedPath& traced);
 
 /// A few lines for each vertex, then the sum.

@@ -11,19 +11,17 @@ namespace pl {
 template <FeatureSet F, Method M>
 struct LanePaths : BatchPaths<F, M> {
     LanePaths(const PassSetup& arguments, const M& of, SharedByThreads<M>& shared)
-        : BatchPaths<F, M>(arguments, of, shared), rows(arguments.batch_paths, this->samples_lights(), splits()) {}
+        : BatchPaths<F, M>(arguments, of, shared), rows(arguments.batch_paths, this->samples_lights()) {}
 
-    /// Whether paths may be split: then roulette is played path by path.
-    bool splits() const { return SplittingMethod<M> && splits_paths(this->setup.path); }
     static constexpr bool can_look_ahead() { return true; }
 
     RayBatch& rays() { return rows.rays; }
     NumberBatch& numbers() { return rows.numbers; }
     /// Starts path i with the state that begin() returns. `store`: of path i, or null.
-    PL_INLINE void start(std::uint32_t i, [[maybe_unused]] PathStore<M>* store, const auto& begin) {
-        if (!rows.keeps_states()) {
+    PL_INLINE void start(std::uint32_t i, [[maybe_unused]] typename M::Store* store, const auto& begin) {
+        if constexpr (PathRows<F, M>::kHooksInLanes) {
             rows.start(i, begin());
-        } else if constexpr (!Hookless<M>) {
+        } else {
             PathState<F, M>& state = rows.of_method(i);
             ::new (static_cast<void*>(&state)) PathState<F, M>(begin());  // as in StatePaths
             if (store != nullptr) keep_store(state, store);
@@ -32,11 +30,6 @@ struct LanePaths : BatchPaths<F, M> {
     }
     /// The state of path i, which may be `local`.
     PathState<F, M>& read(std::uint32_t i, PathState<F, M>& local) { return rows.read(i, local); }
-    /// Path i goes on from this state.
-    void go_on(std::uint32_t i, const PathState<F, M>& state) {
-        rows.set(i, state);
-        if constexpr (LaneLearning<M> && !std::is_empty_v<typename M::Sample>) rows.set_open_sample(i, state.memory);
-    }
     /// Path `from` continues in the place of path `to`.
     void move(std::uint32_t from, std::uint32_t to) { rows.move(from, to); }
 

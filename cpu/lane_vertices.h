@@ -1,5 +1,5 @@
 // The vertices of a block of paths in SIMD lanes: from hits to the next rays. Rare events leave the lanes for the steps of one path and
-// come back: emission that is hit, a miss, a split. So do the hooks of methods that have none in lanes.
+// come back: emission that is hit, and a miss. So do the hooks of methods that have none in lanes.
 #pragma once
 
 #include "core/kernel/integrator/steps.h"
@@ -148,52 +148,11 @@ private:
     std::uint64_t continue_paths(std::uint64_t reached) {
         const float* estimates = Hookless<M> ? nullptr : estimates_;
         if constexpr (LaneLearning<M>) estimates = learning_.estimate(reached);
-        std::uint64_t alone = 0;
-        if constexpr (SplittingMethod<M>) {
-            if (paths_.splits()) alone = kHooksInLanes ? above_split_threshold(estimates) & reached : reached;
-        }
-        Continued continued;
-        for_bits(alone, [&](std::uint32_t k) { continue_alone(k, continued); });
         BlockBits survivors;
         paths_.kernels.play_roulette(paths_.setup.path, block_, estimates, survivors);
-        if constexpr (SplittingMethod<M>)
-            for_bits(alone, [&](std::uint32_t k) {
-                paths_.rows.set_sums(path(k), paths_.rows.of_method(path(k)));
-                block_.paths[k / kGroupSize].roulette_weight[k % kGroupSize] = continued.weights[k];
-            });
-        const std::uint64_t in_lanes = survivors.bits() & reached & ~alone;
-        if constexpr (!kHooksInLanes) terminate(reached & ~alone & ~in_lanes);
-        return in_lanes | continued.paths;
-    }
-    /// Paths that went through the roulette alone: those that go on, and RouletteRound::weight of each.
-    struct Continued {
-        std::uint64_t paths = 0;
-        float weights[kPathBlock];
-    };
-    std::uint64_t above_split_threshold(const float* estimates) const {
-        std::uint64_t above = 0;
-        for (std::uint32_t k = 0; k < kPathBlock; ++k)
-            above |= std::uint64_t{estimates[k] > paths_.setup.path.split_threshold} << k;
-        return above;
-    }
-    /// Splits path k, or plays roulette with it; its sums stay in its state.
-    void continue_alone([[maybe_unused]] std::uint32_t k, [[maybe_unused]] Continued& continued) {
-        if constexpr (SplittingMethod<M>) {
-            typename M::Sample sample{};
-            State& state = paths_.rows.of_method(path(k));
-            paths_.rows.read(path(k), state);
-            if constexpr (LaneLearning<M>) {
-                vertices_.set_vertex(k, learning_.vertex(k));
-                state.expectation.first = paths_.rows.first_expectation(path(k));
-            }
-            ScatterPoint<F, M> from = scatter_point(k);
-            const float u = block_.scatter[k / kGroupSize].rows[3][k % kGroupSize];
-            const PathStatus status =
-                continue_path(paths_.context, paths_.rows.rays.hit(path(k)), u, state, from, paths_.output(sample));
-            continued.weights[k] = from.roulette_weight;
-            if (status == PathStatus::Continues) continued.paths |= std::uint64_t{1} << k;
-            paths_.guided.record(sample);
-        }
+        const std::uint64_t continuing = survivors.bits() & reached;
+        if constexpr (!kHooksInLanes) terminate(reached & ~continuing);
+        return continuing;
     }
 
     /// Samples and weighs the lights of the vertices, and packs their shadow rays.
@@ -240,9 +199,8 @@ private:
         if (!reaches) return;
         vertices_.set_vertex(k, vertex);
         const float survival = paths_.rows.survival(path(k)) * max_component(bsdf.albedo());
-        if (!paths_.splits())
-            estimates_[k] = paths_.method.estimate_contribution(
-                vertex, bsdf.albedo(), paths_.rows.throughput(path(k)), survival, state.expectation);
+        estimates_[k] = paths_.method.estimate_contribution(vertex, bsdf.albedo(), paths_.rows.throughput(path(k)),
+                                                            survival, state.expectation);
     }
     void add_directions(std::uint64_t vertices) {
         directions_.clear();

@@ -20,7 +20,7 @@ public:
         const std::uint32_t lane = index % kGroupSize;
         group.pixel[lane] = state.pixel;
         group.sample[lane] = state.sample;
-        group.vertex[lane] = state.draw_index() + 1;
+        group.vertex[lane] = state.vertices + 1;
     }
 
     void move(std::uint32_t from, std::uint32_t to) {

@@ -35,8 +35,8 @@ public:
     PathBatch(const PassSetup& setup, const I& intersector, const M& method, const W& work,
               SharedByThreads<M>& shared)
         : work_(work), hits_(setup.scene, intersector, setup.batch_paths), paths_(setup, method, shared),
-          stores_(needs_store<M>(setup.path) ? setup.batch_paths : 0),
-          ended_((setup.batch_paths + kPathBlock - 1) / kPathBlock) {}
+          stores_(kNeedsStore<M> ? setup.batch_paths : 0), ended_((setup.batch_paths + kPathBlock - 1) / kPathBlock) {
+    }
 
     /// Traces paths until the source is empty and the last path has ended.
     PassCounters run(PathSource& source) {
@@ -99,20 +99,16 @@ private:
                 const std::uint32_t i =
                     block * kPathBlock + static_cast<std::uint32_t>(std::countr_zero(ended_[block]));
                 ended_[block] &= ended_[block] - 1;
-                if (!finish(i) && !start(source, i)) put_last_in(i);
+                finish(i);
+                if (!start(source, i)) put_last_in(i);
             }
         }
     }
-    /// Returns whether a branch of the path goes on in its place.
-    bool finish(std::uint32_t i) {
+    void finish(std::uint32_t i) {
         PathState<F, M> local;
         PathState<F, M>& state = paths_.read(i, local);
-        if (finish_branch(paths_.context, state, paths_.counters.path) == PathStatus::Continues) {
-            paths_.go_on(i, state);
-            return true;
-        }
+        paths_.method.finished(state.memory, paths_.counters.path.method);
         count_path(paths_.counters, state.radiance, work_.finish(state, paths_.counters));
-        return false;
     }
     /// Path i, which has ended, leaves the batch: the last one, which may have ended as well, takes its place.
     void put_last_in(std::uint32_t i) {
@@ -130,8 +126,8 @@ private:
     const W& work_;
     SolidHits<F, I> hits_;
     typename Kind::Paths paths_;
-    std::vector<PathStore<M>> stores_;  ///< empty if paths need none
-    std::vector<std::uint64_t> ended_;  ///< [block], one bit per path
+    std::vector<typename M::Store> stores_;  ///< empty if paths need none
+    std::vector<std::uint64_t> ended_;       ///< [block], one bit per path
     typename Kind::Vertices vertices_{paths_};
     [[no_unique_address]] typename Kind::Shadows shadows_{paths_};
     std::uint32_t active_ = 0;

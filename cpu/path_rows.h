@@ -28,9 +28,9 @@ class PathRows {
 public:
     using State = PathState<F, M>;
 
-    PathRows(std::uint32_t capacity, bool with_light, bool splits)
+    PathRows(std::uint32_t capacity, bool with_light)
         : rays(capacity), numbers(capacity, with_light), groups_(pl::group_count(capacity)),
-          open_(LaneLearning<M> ? groups_.size() : 0), states_(kHooksInLanes && !splits ? 0 : capacity) {}
+          open_(LaneLearning<M> ? groups_.size() : 0), states_(kHooksInLanes ? 0 : capacity) {}
 
     /// Whether all hooks of the method, if it has any, are called in lanes.
     static constexpr bool kHooksInLanes = Hookless<M> || LaneLearning<M>;
@@ -63,9 +63,9 @@ public:
         step(state);
         set_sums(i, state);
     }
-    /// The state of path i, which is `local` unless keeps_states().
+    /// The state of path i, which is `local` where all hooks are called in lanes.
     State& read(std::uint32_t i, State& local) {
-        State& state = keeps_states() ? states_[i] : local;
+        State& state = kHooksInLanes ? local : states_[i];
         state.ray = rays.ray(i);
         state.pixel = numbers.pixel(i);
         state.sample = numbers.sample(i);
@@ -81,29 +81,16 @@ public:
         set_sums(to, state);
         groups_[to / kGroupSize].direction_pdf_sa[to % kGroupSize] = state.direction_pdf_sa;
         groups_[to / kGroupSize].vertices[to % kGroupSize] = state.vertices;
-        if (keeps_states()) states_[to] = states_[from];
+        if constexpr (!kHooksInLanes) states_[to] = states_[from];
         if constexpr (LaneLearning<M>)
             open_[from / kGroupSize].move(from % kGroupSize, open_[to / kGroupSize], to % kGroupSize);
     }
 
-    /// Whether paths have states: for hooks that are called path by path, and for branches.
-    bool keeps_states() const { return !states_.empty(); }
     /// With hooks in lanes: the open training sample of path i.
     OpenSample<TableField> open_sample(std::uint32_t i) const requires(LaneLearning<M>) {
         const OpenGroup& group = open_[i / kGroupSize];
         const std::uint32_t lane = i % kGroupSize;
         return {.entry = {group.volume[lane], group.cell[lane]}, .bsdf_ratio = group.bsdf_ratio[lane]};
-    }
-    void set_open_sample(std::uint32_t i, const OpenSample<TableField>& sample) requires(LaneLearning<M>) {
-        OpenGroup& group = open_[i / kGroupSize];
-        const std::uint32_t lane = i % kGroupSize;
-        group.volume[lane] = sample.entry.volume;
-        group.cell[lane] = sample.entry.cell;
-        group.bsdf_ratio[lane] = sample.bsdf_ratio;
-    }
-    /// GuidedExpectation::first of path i.
-    float first_expectation(std::uint32_t i) const requires(LaneLearning<M>) {
-        return open_[i / kGroupSize].first[i % kGroupSize];
     }
     OpenGroup* open_groups() { return open_.data(); }
 
@@ -129,7 +116,7 @@ private:
 
     std::vector<PathGroup> groups_;
     std::vector<OpenGroup> open_;  ///< of a method that learns in lanes, else empty
-    std::vector<State> states_;    ///< unless keeps_states(), empty
+    std::vector<State> states_;    ///< for hooks that are called path by path, else empty
 };
 
 }  // namespace pl

@@ -26,7 +26,7 @@ public:
     State& state(std::uint32_t i) { return states_[i]; }
 
     /// Starts path i with the state that begin() returns. `store`: of path i, or null.
-    PL_INLINE void start(std::uint32_t i, PathStore<M>* store, const auto& begin) {
+    PL_INLINE void start(std::uint32_t i, typename M::Store* store, const auto& begin) {
         // Constructed in place: the wide loads of a copy would stall, since narrower stores do not forward to them.
         ::new (static_cast<void*>(&states_[i])) State(begin());
         if (store != nullptr) keep_store(states_[i], store);
@@ -34,8 +34,6 @@ public:
     }
     /// The state of path i.
     State& read(std::uint32_t i, State& /*local*/) { return states_[i]; }
-    /// Path i goes on from its state.
-    void go_on(std::uint32_t i, const State& /*state*/) { send(i); }
     /// Copies the ray and the random-number counter of path i into the arrays of the batch.
     void send(std::uint32_t i) {
         rays_.set_ray(i, states_[i].ray);

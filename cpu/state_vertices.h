@@ -82,7 +82,7 @@ private:
         ScatterPoint<F, M>& from = slot.in(vertices_);
         if (shade_hit<F, M>(paths_.context, hit, Ahead{*this, i, hit}, paths_.state(i), {out, from}) ==
             PathStatus::Continues)
-            leave(i, hit, from, out);
+            leave(i, from, out);
         paths_.guided.record(sample);
     }
 
@@ -101,10 +101,10 @@ private:
     }
 
     /// Plays roulette at the vertex `from` of path i. Its light and its direction are left to the block.
-    void leave(std::uint32_t i, const Hit& hit, ScatterPoint<F, M>& from, const StepOutput<M>& out) {
+    void leave(std::uint32_t i, ScatterPoint<F, M>& from, const StepOutput<M>& out) {
         const VertexNumbers numbers = paths_.numbers().numbers(i);
         if (paths_.samples_lights()) add_vertex(i, from, numbers);
-        if (continue_path(paths_.context, hit, numbers.scatter.w, paths_.state(i), from, out) == PathStatus::Finished)
+        if (continue_path(paths_.context, numbers.scatter.w, paths_.state(i), from, out) == PathStatus::Finished)
             return;
         if (!paths_.samples_lights()) add_vertex(i, from, numbers);
         vertices_.keep_last(from.roulette_weight);

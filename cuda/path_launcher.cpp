@@ -3,10 +3,7 @@
 namespace pl::cuda {
 
 /// Whether a path may have more segments than a launch traces.
-bool PathLauncher::may_wait(const PathSettings& path) const {
-    const std::uint64_t branches = splits_paths(path) ? kMostBranches : 1u;
-    return std::uint64_t{path.max_depth} * branches > most_segments_;
-}
+bool PathLauncher::may_wait(const PathSettings& path) const { return path.max_depth > most_segments_; }
 
 void* PathLauncher::stores(std::size_t bytes) {
     if (stores_.bytes() < bytes) stores_ = DeviceMemory(bytes);

@@ -154,7 +154,7 @@ void PathLauncher::launch_paths(void (*kernel)(TraceSetup, M, Paths), TraceSetup
     setup.longest = &counts_.data()->longest;
     const LaunchShape shape = resident_threads(kernel, processors_, setup.range.end - setup.range.first);
     const std::uint32_t threads = current.threads = shape.blocks * shape.threads;
-    setup.stores = stores(needs_store<M>(setup.path) ? threads * sizeof(PathStore<M>) : 1);
+    setup.stores = stores(kNeedsStore<M> ? threads * sizeof(typename M::Store) : 1);
     // No set of effects has a larger state than all of them.
     if (may_wait(setup.path)) setup.parking = parking(threads, sizeof(PathState<kEveryFeature, M>), resumes);
     launch(kernel, shape, stream_, "trace_paths", setup, method, paths);

@@ -62,8 +62,8 @@ constexpr auto kPictureOptions = std::to_array<OptionSpec>({
      .parse = [](Options& o, Text text) { o.render.next_event = parse_switch(text); },
      .print = [](const Options& o) { return std::string(o.render.next_event ? "on" : "off"); }},
     {.name = "roulette", .flags = "--roulette", .value = "NAME", .group = kPicture,
-     .help = "Russian roulette and splitting: spare (default): by the albedo, but the learned radiance may "
-             "spare a path or split it; albedo: by the albedo alone; field: by the learned radiance alone; off: paths end by "
+     .help = "Russian roulette: spare (default): by the albedo, but the learned radiance may spare a path; albedo: "
+             "by the albedo alone; off: paths end by "
              "--max-depth alone",
      .is_expert = true, .commands = kSampling, .in_scene_files = true, .parse = parse_roulette,
      .print = [](const Options& o) { return std::string(name_of(o.render.roulette)); }},

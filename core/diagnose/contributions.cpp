@@ -1,7 +1,5 @@
 #include "core/diagnose/contributions.h"
 
-#include <algorithm>
-
 namespace pl {
 namespace {
 
@@ -16,10 +14,7 @@ FoundBy found_by(Technique technique) {
 
 /// The technique of the direction that leads to a vertex.
 FoundBy arrival_at(const PathRecord& path, std::uint32_t index) {
-    const std::int32_t parent = path.vertices[index].parent;
-    if (parent < 0) return FoundBy::Camera;
-    const std::vector<ScatterRecord>& scattered = path.vertices[static_cast<std::size_t>(parent)].scattered;
-    return found_by(std::ranges::find(scattered, index, &ScatterRecord::next)->technique);
+    return index == 0 ? FoundBy::Camera : found_by(path.vertices[index - 1].scattered->technique);
 }
 
 }  // namespace
@@ -44,11 +39,11 @@ std::vector<Contribution> contributions_of(const PathRecord& path) {
     for (std::uint32_t i = 0; i < path.vertices.size(); ++i) {
         const VertexRecord& vertex = path.vertices[i];
         if (!is_black(vertex.emission.contribution))
-            add({.found_by = arrival_at(path, i), .bounces = vertex.bounce, .is_distant = vertex.is_escape},
+            add({.found_by = arrival_at(path, i), .bounces = i, .is_distant = vertex.is_escape},
                 vertex.emission.contribution);
         if (vertex.light)
             add({.found_by = FoundBy::LightSampling,
-                 .bounces = vertex.bounce + 1,
+                 .bounces = i + 1,
                  .is_distant = !vertex.light->position.has_value()},
                 vertex.light->contribution);
     }

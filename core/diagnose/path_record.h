@@ -21,7 +21,7 @@ enum class Technique : std::uint32_t {
 /// "bsdf", "field", "delta".
 std::string_view name_of(Technique technique);
 
-/// The event that ended a path or one of its branches.
+/// The event that ended a path.
 enum class PathEnd : std::uint32_t {
     Escaped,        ///< the ray met no surface
     Absorbed,       ///< the surface reflects nothing
@@ -54,18 +54,15 @@ struct LightSampleRecord {
     Vec3f contribution{0.0f};  ///< to the radiance of the pixel
 };
 
-/// Russian roulette or splitting at a vertex.
+/// Russian roulette at a vertex.
 struct RouletteRecord {
-    float estimate = 1.0f;  ///< contribution estimate, relative to the path's first vertex
-    float expected_branches =
-        1.0f;                    ///< survival probability if at most 1, else the number that the path is split into
-    std::uint32_t branches = 1;  ///< that do continue; 0: the path ends here
+    float estimate = 1.0f;              ///< contribution estimate, relative to the path's first vertex
+    float survival_probability = 1.0f;  ///< 1 before roulette begins
+    bool survives = true;
 };
 
-/// A direction that a path continues in from a vertex. Densities per steradian, 0 for delta lobes.
+/// The direction that a path continues in from a vertex. Densities per steradian, 0 for delta lobes.
 struct ScatterRecord {
-    std::uint32_t branch = 0;
-    std::uint32_t next = 0;  ///< index of the vertex that it leads to
     Technique technique = Technique::Bsdf;
     Vec3f wi{0.0f};
     float pdf_sa = 0.0f;        ///< of all techniques together: (1 - delta probability) (a p_bsdf + (1 - a) p_field)
@@ -76,13 +73,10 @@ struct ScatterRecord {
 };
 
 struct VertexRecord {
-    std::int32_t parent = -1;  ///< index of the vertex before; -1: the camera
-    std::uint32_t branch = 0;
-    std::uint32_t bounce = 0;  ///< scattering events from the camera to here
-    bool is_escape = false;    ///< no surface was met: of the members below only wo, throughput and emission are set
-    Vec3f origin{0.0f};        ///< of the ray that ends here
-    Vec3f wo{0.0f};            ///< unit, towards `origin`
-    Vec3f throughput{1.0f};    ///< of the path on arrival
+    bool is_escape = false;  ///< no surface was met: of the members below only wo, throughput and emission are set
+    Vec3f origin{0.0f};      ///< of the ray that ends here
+    Vec3f wo{0.0f};          ///< unit, towards `origin`
+    Vec3f throughput{1.0f};  ///< of the path on arrival
     Vec3f position{0.0f};
     Vec3f geometric_normal{0.0f};  ///< on the side of wo, like the next one
     Vec3f shading_normal{0.0f};
@@ -96,16 +90,10 @@ struct VertexRecord {
     EmissionRecord emission{};
     std::optional<LightSampleRecord> light{};  ///< none if no light was sampled, or none that can contribute
     std::optional<RouletteRecord> roulette{};  ///< none where the path ended before
-    std::vector<ScatterRecord> scattered{};    ///< more than one if the path was split here
+    std::optional<ScatterRecord> scattered{};  ///< none at the last vertex
 
     /// To the radiance of the pixel, from here alone.
     Vec3f contribution() const { return emission.contribution + (light ? light->contribution : Vec3f{0.0f}); }
-};
-
-struct BranchEnd {
-    std::uint32_t branch = 0;
-    std::uint32_t vertex = 0;  ///< the last one
-    PathEnd reason = PathEnd::Absorbed;
 };
 
 struct PathRecord {
@@ -117,8 +105,9 @@ struct PathRecord {
     Vec3f radiance{0.0f};        ///< of the pixel by this path, with the bits of its pass
     std::uint32_t segments = 0;  ///< rays traced, without shadow rays
     std::uint32_t shadow_rays = 0;
-    std::vector<VertexRecord> vertices{};  ///< in the order of tracing; a vertex comes after its parent
-    std::vector<BranchEnd> ends{};         ///< one for each branch, in the order of tracing
+    std::vector<VertexRecord>
+        vertices{};                   ///< from the camera on: as many scattering events before a vertex as its index
+    PathEnd end = PathEnd::Absorbed;  ///< of the last vertex
 };
 
 }  // namespace pl

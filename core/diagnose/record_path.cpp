@@ -26,17 +26,20 @@ public:
     PathRecord run(State& state) {
         PathRecord record{.pixel = state.pixel, .sample = state.sample, .eye = state.ray.origin};
         PathCounters counters;
-        PathStore<M> store;
+        typename M::Store store;
         keep_store(state, &store);
         PathStatus status = PathStatus::Continues;
-        for (std::int32_t parent = -1; status == PathStatus::Continues;) {
-            const State before = state;
-            const auto index = static_cast<std::uint32_t>(record.vertices.size());
-            const std::optional<PathEnd> end = add_vertex(before, parent, record);
+        while (status == PathStatus::Continues) {
+            Point point;
+            VertexRecord& vertex = record.vertices.emplace_back();
+            const std::optional<PathEnd> end = add_vertex(state, point, vertex);
             choices_.is_light_visible = false;
             status = trace_segment<kAll>(context_, BvhIntersector{scene_}, state, counters);
-            see_light(record.vertices.back());
-            parent = follow(before, state, status, {.vertex = index, .end = end}, record);
+            see_light(vertex);
+            if (status == PathStatus::Continues)
+                vertex.scattered = direction_from(point, state);
+            else
+                record.end = end.value_or(PathEnd::ZeroDirection);
         }
         record.radiance = state.radiance;
         record.segments = static_cast<std::uint32_t>(counters.segments);
@@ -47,46 +50,21 @@ public:
 private:
     using Point = ScatterPoint<kAll, M>;
 
-    /// A vertex where branches of the path wait.
-    struct WaitingFork {
-        std::uint32_t vertex = 0;
-        std::uint32_t waiting = 0;
-    };
-    /// The last vertex, and the reason why its branch ends there, as far as it is known before a direction is sampled.
-    struct Arrival {
-        std::uint32_t vertex = 0;
-        std::optional<PathEnd> end;
-    };
-
-    static std::uint32_t branch_of(const State& state) {
-        if constexpr (SplittingMethod<M>) return state.branches.number;
-        return 0;
-    }
-
-    std::optional<PathEnd> add_vertex(const State& before, std::int32_t parent, PathRecord& record) {
-        VertexRecord vertex{.parent = parent,
-                            .branch = branch_of(before),
-                            .bounce = before.vertices,
-                            .origin = before.ray.origin,
-                            .wo = -before.ray.direction};
+    /// Returns the reason why the path ends at the vertex, as far as it is known before a direction is sampled.
+    std::optional<PathEnd> add_vertex(const State& before, Point& point, VertexRecord& vertex) const {
+        vertex.origin = before.ray.origin;
+        vertex.wo = -before.ray.direction;
         const Hit hit = closest_solid_hit<kAll>(scene_, BvhIntersector{scene_}, before.ray);
         State arrived = before;
         absorb_segment(scene_, hit, arrived);
         vertex.throughput = arrived.throughput;
-        Point point;
-        std::optional<PathEnd> end = PathEnd::Escaped;
-        if (hit.found()) {
-            point = add_surface(hit, arrived, vertex);
-            end = add_interaction(point, arrived, vertex);
-        } else {
+        if (!hit.found()) {
             vertex.is_escape = true;
             vertex.emission = environment_emission(arrived);
+            return PathEnd::Escaped;
         }
-        if (vertex.roulette && vertex.roulette->branches > 1)
-            forks_.push_back({static_cast<std::uint32_t>(record.vertices.size()), vertex.roulette->branches - 1});
-        points_.push_back(point);
-        record.vertices.push_back(std::move(vertex));
-        return end;
+        point = add_surface(hit, arrived, vertex);
+        return add_interaction(point, arrived, vertex);
     }
 
     Point add_surface(const Hit& hit, const State& before, VertexRecord& vertex) const {
@@ -144,17 +122,17 @@ private:
     }
 
     /// The light sample, and roulette. Returns the reason if the path ends.
-    std::optional<PathEnd> add_interaction(Point& point, const State& before, VertexRecord& vertex) {
+    std::optional<PathEnd> add_interaction(Point& point, const State& before, VertexRecord& vertex) const {
         if (!point.bsdf.scatters()) return PathEnd::Absorbed;
         State state = before;
         if (++state.vertices >= context_.settings.max_depth) return PathEnd::DepthLimit;
         if (point.bsdf.is_specular()) count_specular(context_.settings, state);
         const VertexNumbers numbers = draw_vertex_numbers<kAll>(context_.settings, before);
         if (context_.settings.next_event != 0) vertex.light = light_sample(point, numbers.light, before);
-        const Continuation next =
+        const float weight =
             play_roulette(method_, context_.settings, point.vertex, point.bsdf.albedo(), numbers.scatter.w, state);
-        vertex.roulette = roulette_record(next, before, state);
-        return next.branches == 0 ? std::optional(PathEnd::Roulette) : std::nullopt;
+        vertex.roulette = roulette_record(weight, state);
+        return vertex.roulette->survives ? std::nullopt : std::optional(PathEnd::Roulette);
     }
 
     std::optional<LightSampleRecord> light_sample(const Point& point, Vec4f u, const State& before) const {
@@ -172,16 +150,12 @@ private:
         return record;
     }
 
-    /// `before` and `after` roulette.
-    RouletteRecord roulette_record(const Continuation& next, const State& before, const State& after) const {
-        RouletteRecord record{.estimate = choices_.estimate, .branches = next.branches};
-        if (counted_vertices(after) < context_.settings.roulette_start) return record;
-        const float factor = max_component(after.throughput) / max_component(before.throughput);
-        // Roulette that ends a path leaves its state as it was.
-        record.expected_branches = next.branches == 0 || !(factor > 0.0f)
-                                       ? survival_probability(context_.settings, record.estimate, after.survival)
-                                       : 1.0f / factor;
-        return record;
+    /// `weight`: of roulette; `after`: the state behind it.
+    RouletteRecord roulette_record(float weight, const State& after) const {
+        const float survival = weight > 0.0f
+                                   ? 1.0f / weight
+                                   : survival_probability(context_.settings, choices_.estimate, after.survival);
+        return {.estimate = choices_.estimate, .survival_probability = survival, .survives = weight > 0.0f};
     }
 
     void see_light(VertexRecord& vertex) const {
@@ -190,42 +164,10 @@ private:
         vertex.light->contribution = vertex.light->unoccluded;
     }
 
-    /// Adds the direction that the path goes on in: from the last vertex, or from a fork once a branch has ended. Returns the
-    /// vertex that it leaves; -1 if the path has ended.
-    std::int32_t follow(const State& before, const State& after, PathStatus status, const Arrival& last,
-                        PathRecord& record) {
-        const bool goes_on = status == PathStatus::Continues;
-        std::uint32_t from = last.vertex;
-        std::uint32_t branch = branch_of(before);
-        if (goes_on && branch == branch_of(after)) {
-            add_direction(from, after, record);
-            return static_cast<std::int32_t>(from);
-        }
-        record.ends.push_back({branch, from, last.end.value_or(PathEnd::ZeroDirection)});
-        while (branch < branch_of(after)) {
-            ++branch;
-            from = begin_branch_at_fork();
-            if (branch < branch_of(after) || !goes_on) record.ends.push_back({branch, from, PathEnd::ZeroDirection});
-        }
-        if (!goes_on) return -1;
-        add_direction(from, after, record);
-        return static_cast<std::int32_t>(from);
-    }
-
-    /// As Branches::begin().
-    std::uint32_t begin_branch_at_fork() {
-        const std::uint32_t vertex = forks_.back().vertex;
-        if (--forks_.back().waiting == 0) forks_.pop_back();
-        return vertex;
-    }
-
-    void add_direction(std::uint32_t from, const State& after, PathRecord& record) const {
-        const Point& point = points_[from];
-        ScatterRecord direction{.branch = branch_of(after),
-                                .next = static_cast<std::uint32_t>(record.vertices.size()),
-                                .wi = after.ray.direction,
-                                .pdf_sa = after.direction_pdf_sa,
-                                .throughput = after.throughput};
+    /// The direction from a vertex that `after` goes on in.
+    ScatterRecord direction_from(const Point& point, const State& after) const {
+        ScatterRecord direction{
+            .wi = after.ray.direction, .pdf_sa = after.direction_pdf_sa, .throughput = after.throughput};
         if (after.direction_pdf_sa > 0.0f) {
             direction.technique = choices_.samples_field ? Technique::Field : Technique::Bsdf;
             direction.bsdf_pdf_sa = choices_.direction.bsdf_pdf_sa;
@@ -238,15 +180,13 @@ private:
         } else {
             direction.technique = Technique::Delta;
         }
-        record.vertices[from].scattered.push_back(direction);
+        return direction;
     }
 
     const SceneView& scene_;
     const M& method_;
     PathContext<M> context_;
     ObservedChoices& choices_;
-    std::vector<Point> points_;  ///< one for each vertex
-    std::vector<WaitingFork> forks_;
 };
 
 }  // namespace

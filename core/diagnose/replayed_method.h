@@ -28,7 +28,7 @@ auto with_replayed_method(const PassReplay& passes, const AnyFieldView& field, s
         static_cast<Field&>(method.field) = view;
         method.mixture = passes.mixture;
         method.learning = passes.learning;
-        return trace(method, passes.has_moving_tables ? at_pass(path, sample) : path);
+        return trace(method, path);
     });
 }
 

@@ -11,15 +11,6 @@ constexpr float kGuidedRouletteThreshold = 0.2f;
 /// The same with light samples: a path that ends has had some of the light at each of its vertices
 /// (docs/notebook/2026-11-23-guiding-choice.md).
 constexpr float kLightSampledRouletteThreshold = 0.35f;
-/// Threshold of RouletteRule::Field: the lower end of a window of weights around 1, whose ends differ by a factor of
-/// 5.   [Vorba and Krivanek 2016, section 4]
-constexpr float kFieldRouletteThreshold = 2.0f / (1.0f + 5.0f);
-
-/// Paths are split above twice the contribution expected at their first vertex
-/// (docs/notebook/2026-11-22-roulette-and-splitting.md).
-constexpr float kSplitThreshold = 2.0f;
-/// Passes of a field before paths are split (docs/notebook/2026-11-23-first-passes.md).
-constexpr std::uint64_t kPassesBeforeSplitting = 4;
 
 /// Passes until those of a learning method have their full weight, without and with light samples. The first ones have many times
 /// the variance of later ones, with light samples fewer times; longer ramps waste more of the later ones
@@ -27,36 +18,19 @@ constexpr std::uint64_t kPassesBeforeSplitting = 4;
 constexpr std::uint32_t kWeightRamp = 8;
 constexpr std::uint32_t kLightSampledWeightRamp = 4;
 
-/// With light samples a path that reaches a bright region has most of its light by the samples of its vertices: branches cost more
-/// than they bring (docs/notebook/2026-11-23-first-passes.md).
-bool splits_paths(const RenderSettings& settings, MethodId method) {
-    if (!info_of(method).uses_field) return false;
-    return settings.roulette == RouletteRule::Field ||
-           (settings.roulette == RouletteRule::Spare && !settings.next_event);
-}
-
 }  // namespace
 
 PathSettings path_settings(const RenderSettings& settings, MethodId method) {
-    const bool is_guided = info_of(method).uses_field;
-    float threshold = settings.next_event ? kLightSampledRouletteThreshold : kGuidedRouletteThreshold;
-    if (settings.roulette == RouletteRule::Field) threshold = kFieldRouletteThreshold;
+    const float guided_threshold = settings.next_event ? kLightSampledRouletteThreshold : kGuidedRouletteThreshold;
     const bool has_roulette = settings.roulette != kNoRoulette;
     const auto depth = static_cast<std::uint32_t>(settings.max_depth);
     return {.seed = settings.seed,
             .max_depth = depth,
             .roulette_start = has_roulette ? PathSettings{}.roulette_start : depth + 1,
-            .roulette_threshold = is_guided ? threshold : 1.0f,
-            .split_threshold = splits_paths(settings, method) ? kSplitThreshold : kInfinity,
+            .roulette_threshold = info_of(method).uses_field ? guided_threshold : 1.0f,
             .roulette = has_roulette ? settings.roulette : RouletteRule::Albedo,
             .next_event = settings.next_event ? 1u : 0u};
 }
-
-PathSettings at_pass(PathSettings path, std::uint64_t passes) {
-    if (has_early_settings(passes)) path.split_threshold = kInfinity;
-    return path;
-}
-bool has_early_settings(std::uint64_t passes) { return passes < kPassesBeforeSplitting; }
 
 PassWeights pass_weights(const RenderSettings& settings, MethodId method) {
     if (!info_of(method).learns) return {};

@@ -1,4 +1,4 @@
-// The path settings of kernels from those of the user, with the thresholds of roulette and splitting of each method.
+// The path settings of kernels from those of the user, with the threshold of roulette of each method.
 #pragma once
 
 #include "core/kernel/film/pass_weights.h"
@@ -8,12 +8,6 @@
 namespace pl {
 
 PathSettings path_settings(const RenderSettings& settings, MethodId method);
-
-/// The same for a pass of a learning method whose field was trained by `passes` passes. The first ones split no paths: by the
-/// estimates of a field that knows little nearly all would be, in dark places without end.
-PathSettings at_pass(PathSettings path, std::uint64_t passes);
-/// Whether at_pass() differs from the settings of later passes.
-bool has_early_settings(std::uint64_t passes);
 
 /// The weights of a method's passes in a picture, by the number of passes that its field was trained by.
 PassWeights pass_weights(const RenderSettings& settings, MethodId method);

@@ -123,7 +123,6 @@ std::uint32_t Session::sample_number(FilmSlot slot) const {
 std::uint32_t Session::equal_passes(FilmSlot slot, std::uint32_t most) const {
     const FilmProgress& state = films_[slot];
     if (slot.view != View::Beauty || state.next_pixel > 0) return 1;
-    if (learns_from(slot) && has_early_settings(field(slot.method).passes)) return 1;
     const bool learns = learns_from(slot) && state.is_guided && !is_frozen(slot.method);
     if (!learns && !chooses_guiding(slot)) return most;
     const std::uint64_t left = learns ? settings_.learn_passes - trained_passes(slot.method) : most;
@@ -174,7 +173,7 @@ PassRequest Session::pass_request(FilmSlot slot, MethodId method, const StopFlag
             .is_guided = method == slot.method,
             .trains = state.trains,
             .features = needed_features(slot).with(settings_.forced_effects),
-            .path = learns_from(slot) ? at_pass(path, sample) : path,
+            .path = path,
             .camera = view_camera(),
             .mixture = mixture_of(settings_, method),
             .learning = settings_.field.learning,

@@ -18,9 +18,9 @@ namespace pl {
 /// RenderSettings::learn_passes without an end of learning.
 inline constexpr std::uint64_t kEveryPass = std::numeric_limits<std::uint64_t>::max();
 
-/// RenderSettings::roulette of paths that end by their depth alone, and never split. No rule of kernels: path_settings() puts the
+/// RenderSettings::roulette of paths that end by their depth alone. No rule of kernels: path_settings() puts the
 /// first vertex with roulette out of reach.
-inline constexpr RouletteRule kNoRoulette{3};
+inline constexpr RouletteRule kNoRoulette{2};
 
 /// All settings besides the scene and the back end that decide the values of a film.
 struct RenderSettings {

@@ -84,7 +84,7 @@ struct TraceSetup {
     std::uint32_t* claimed = nullptr;  ///< number of paths claimed; cleared before the launch
     PassCounters* counters = nullptr;  ///< incremented
     std::uint32_t* longest = nullptr;  ///< raised to the number of segments of the thread that traced most
-    void* stores = nullptr;            ///< the kernel's PathStore, of any size if paths need none. [thread]
+    void* stores = nullptr;  ///< Store of the kernel's method, of any size if kNeedsStore is false. [thread]
     Parking parking{};
 };
 

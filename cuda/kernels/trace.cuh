@@ -65,7 +65,7 @@ __device__ inline bool next_path(const TraceSetup& setup, const Paths& paths, bo
     else if (!start(setup, paths, state))
         return false;
     // Of a resumed path, too: the compiler then knows that it is global memory.
-    keep_store(state, static_cast<PathStore<M>*>(setup.stores) + thread_number());
+    keep_store(state, static_cast<typename M::Store*>(setup.stores) + thread_number());
     return true;
 }
 
@@ -97,7 +97,7 @@ __global__ void __launch_bounds__(trace_block<FeatureSet{kFeatureBits}, M>().thr
     const PathContext<M> context{setup.scene, method, setup.path};
     ThreadCounters counters;
     PathState<kFeatures, M> state;
-    keep_store(state, static_cast<PathStore<M>*>(setup.stores) + thread_number());
+    keep_store(state, static_cast<typename M::Store*>(setup.stores) + thread_number());
     PathStatus status = PathStatus::Finished;
     bool resumes = setup.parking.resumes != 0;
     bool has_path = true;
@@ -117,7 +117,7 @@ __global__ void __launch_bounds__(trace_block<FeatureSet{kFeatureBits}, M>().thr
                              end.from.surface);
         Step::template begin<5>();
         ShadowRequest<M> shadow;
-        if (has_path) status = sample_light_at_end<kFeatures>(context, hit, status, end, state, shadow, fresh.path);
+        if (has_path) status = sample_light_at_end<kFeatures>(context, status, end, state, shadow, fresh.path);
         Step::template begin<4>();
         if (has_path) status = scatter_at_end<kFeatures>(context, status, end, state, fresh.path);
         Step::template begin<3>();

@@ -66,7 +66,7 @@ Options any_options(std::mt19937& random) {
     if (random() % 2 == 0) o.render.field.refine_share = real(0.0f, 1.0f);
     o.render.field.rate = static_cast<LearningRate>(whole(1, 4));
     o.render.field.learning = {static_cast<LearningTarget>(whole(0, 2)), static_cast<LearnedLight>(whole(0, 1))};
-    o.render.roulette = static_cast<RouletteRule>(whole(0, 3));
+    o.render.roulette = static_cast<RouletteRule>(whole(0, 2));
     o.render.guiding = static_cast<GuidingRule>(whole(0, 1));
     o.display.exposure_ev = real(-64.0f, 64.0f);
     o.display.curve = static_cast<ToneCurve>(whole(0, 2));

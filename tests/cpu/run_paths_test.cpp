@@ -46,17 +46,14 @@ bool same(const Outcome& a, const Outcome& b) {
 
 constexpr std::uint32_t kPasses = 3;
 
-/// Effects of a pass, whether lights are sampled, and whether guided paths are split, at about every second vertex.
+/// Effects of a pass, and whether lights are sampled.
 struct Effects {
     FeatureSet set;
     bool next_event = false;
-    bool splits = false;
 };
 
 PathSettings path_settings(const Effects& effects) {
-    return {.seed = 77,
-            .split_threshold = effects.splits ? 0.25f : kInfinity,
-            .next_event = effects.next_event ? 1u : 0u};
+    return {.seed = 77, .next_event = effects.next_event ? 1u : 0u};
 }
 
 /// A room without a ceiling under a constant sky, with a lamp that shines on both sides, and shading normals that lean; one has no length.
@@ -142,8 +139,8 @@ void check_batches(const Outcome& expected, const Room& room, MethodId method, c
     REQUIRE((expected.counters.path.shadow_rays > 0) == effects.next_event);
     REQUIRE((expected.counters.path.method.records > 0) == (method == MethodId::Reinforcement));
     for (const CpuSettings& settings : kSettings) {
-        INFO("effects " << effects.set.bits << ", next event " << effects.next_event << ", splits " << effects.splits
-                        << ", batch " << settings.batch_paths << ", threads " << settings.threads << ", intersector "
+        INFO("effects " << effects.set.bits << ", next event " << effects.next_event << ", batch "
+                        << settings.batch_paths << ", threads " << settings.threads << ", intersector "
                         << static_cast<int>(settings.intersector));
         CHECK(same(expected, batches(room, method, effects, settings)));
     }
@@ -158,12 +155,10 @@ template <class M>
 void check_method(MethodId method) {
     const Room closed;
     const Room open(open_room());
-    for (const bool splits : {false, true}) {
-        check_effects<FeatureSet{}, M>(closed, method, {FeatureSet{}, false, splits});
-        check_effects<kLights, M>(closed, method, {kLights, true, splits});
-        for (const bool next_event : {false, true})
-            check_effects<kPlainFeatures, M>(open, method, {kPlainFeatures, next_event, splits});
-    }
+    check_effects<FeatureSet{}, M>(closed, method, {FeatureSet{}, false});
+    check_effects<kLights, M>(closed, method, {kLights, true});
+    for (const bool next_event : {false, true})
+        check_effects<kPlainFeatures, M>(open, method, {kPlainFeatures, next_event});
 }
 
 }  // namespace
@@ -181,7 +176,7 @@ TEST_CASE("Batches of probes equal single probes") {
     HostTables expected = room.empty_tables();
     const TableField field = field_view(room.shape, *room.volumes, expected);
     const SceneView scene = room.scene->view();
-    PathSettings settings = path_settings({kLights, true, true});
+    PathSettings settings = path_settings({kLights, true});
     settings.stream = Stream::Precompute;
     PassCounters counters;
     for (std::uint32_t probe = 0; probe < field.normals.count * 16; ++probe) {

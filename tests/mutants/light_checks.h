@@ -16,8 +16,7 @@ template <FeatureSet F, class M>
 inline Decision check_cube_wall(const CubeReference& reference, const HostScene& scene, Wall wall, const M& method,
                                 Range samples, double delta) {
     std::array<Moments, 3> channels;
-    const PathSettings settings{
-        .seed = 1, .split_threshold = 0.5f, .next_event = F.has(Feature::NextEventEstimation) ? 1u : 0u};
+    const PathSettings settings{.seed = 1, .next_event = F.has(Feature::NextEventEstimation) ? 1u : 0u};
     trace_many<F>(scene, camera_at_center(wall, kCubeLow, kCubeHigh), method, settings, samples,
                   [&](const PathState<F, M>& state, const PathCounters&) {
                       for (int c = 0; c < 3; ++c)
@@ -46,7 +45,7 @@ inline Decision check_cube_next_event() {
                                            {0, 400'000}, 0.02);
 }
 
-/// The same with directions learned in 32 passes of 1000 paths, and with paths that are split. Seed 1, 1.2e6 paths, resolves 2 %.
+/// The same with directions learned in 32 passes of 1000 paths. Seed 1, 1.2e6 paths, resolves 2 %.
 inline Decision check_cube_guided() {
     const CubeReference reference = cube_with_lamp();
     const HostScene scene = pack_scene(cube_scene(reference));

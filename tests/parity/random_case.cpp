@@ -75,7 +75,7 @@ BackendCase random_case(SceneShelf& scenes, std::uint64_t seed, std::uint32_t nu
     settings.seed = draws.below(1u << 20);
     settings.max_depth = draws.one_of({1, 2, 3, 8, 64, 64});
     settings.next_event = draws.chance(0.5f);
-    settings.roulette = draws.one_of({RouletteRule::Spare, RouletteRule::Albedo, RouletteRule::Field});
+    settings.roulette = draws.one_of({RouletteRule::Spare, RouletteRule::Albedo});
     settings.guiding = draws.one_of({GuidingRule::Paying, GuidingRule::Always});
     settings.mixture.learned = draws.below(2);
     settings.mixture.bsdf_fraction = 0.1f + 0.9f * draws.uniform();

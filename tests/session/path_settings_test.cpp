@@ -4,57 +4,29 @@
 
 using namespace pl;
 
-TEST_CASE("Path settings: guided paths play roulette late and split, others play at every loss") {
+TEST_CASE("Path settings: guided paths play roulette late, others at every loss") {
     RenderSettings settings{.max_depth = 7, .next_event = false};
     const PathSettings plain = path_settings(settings, MethodId::Default);
     CHECK(plain.max_depth == 7);
     CHECK(plain.next_event == 0u);
     CHECK(plain.roulette_threshold == 1.0f);
-    CHECK(plain.split_threshold == kInfinity);
     const PathSettings guided = path_settings(settings, MethodId::Reinforcement);
     CHECK(guided.roulette_threshold < 1.0f);
-    CHECK(guided.split_threshold == 2.0f);
     settings.roulette = RouletteRule::Albedo;
-    CHECK(path_settings(settings, MethodId::Reinforcement).split_threshold == kInfinity);
-    settings.roulette = RouletteRule::Field;
-    CHECK(path_settings(settings, MethodId::Reinforcement).roulette_threshold < 1.0f);
+    CHECK(path_settings(settings, MethodId::Reinforcement).roulette == RouletteRule::Albedo);
 }
 
-TEST_CASE("Path settings: without roulette paths end by their depth alone, and are not split") {
+TEST_CASE("Path settings: without roulette paths end by their depth alone") {
     for (const bool next_event : {false, true})
         for (const int depth : {1, 7, 65536})
             for (const MethodId method : {MethodId::Default, MethodId::Precomputed, MethodId::Reinforcement}) {
                 const PathSettings path =
                     path_settings({.max_depth = depth, .next_event = next_event, .roulette = kNoRoulette}, method);
                 CHECK(path.roulette_start > path.max_depth);
-                CHECK(path.split_threshold == kInfinity);
                 CHECK(path.roulette == RouletteRule::Albedo);
             }
     CHECK(probe_settings({.roulette = kNoRoulette}, MethodId::Precomputed).roulette_start == 65);
     CHECK(path_settings({}, MethodId::Default).roulette_start == PathSettings{}.roulette_start);
-}
-
-TEST_CASE("Path settings: with light samples only the rule that follows the field alone splits") {
-    RenderSettings settings;
-    settings.next_event = true;
-    CHECK(path_settings(settings, MethodId::Reinforcement).next_event == 1u);
-    CHECK(path_settings(settings, MethodId::Reinforcement).split_threshold == kInfinity);
-    settings.roulette = RouletteRule::Field;
-    CHECK(path_settings(settings, MethodId::Reinforcement).split_threshold == 2.0f);
-}
-
-TEST_CASE("Path settings: the first passes of a field split no paths") {
-    const PathSettings path = path_settings({.next_event = false}, MethodId::Reinforcement);
-    REQUIRE(path.split_threshold == 2.0f);
-    for (const std::uint64_t pass : {0u, 3u}) {
-        CHECK(at_pass(path, pass).split_threshold == kInfinity);
-        CHECK(has_early_settings(pass));
-    }
-    for (const std::uint64_t pass : {4u, 100u}) {
-        CHECK(at_pass(path, pass).split_threshold == 2.0f);
-        CHECK_FALSE(has_early_settings(pass));
-    }
-    CHECK(at_pass(path, 0).roulette_threshold == path.roulette_threshold);
 }
 
 TEST_CASE("Path settings: only passes of methods that learn while they render have weights that grow") {

@@ -22,12 +22,6 @@ struct ReplayedMethod : MonteCarloMethod {
         Vec3f brought{0.0f};  ///< emission of the first surface, and the part of its light sample that it reflects
         Vec3f first_light{0.0f};
         Vec3f weight{0.0f};  ///< of the direction scattered at the first vertex
-
-        Memory emptied() const {
-            Memory memory;
-            memory.steps = steps;
-            return memory;
-        }
     };
 
     Sample observe(Memory& memory, const Observation& observation, const Vertex& vertex,
@@ -87,7 +81,7 @@ void check_replay(const std::string& name, bool next_event) {
     int lit = 0;
     for (std::uint32_t i = 0; i < kSide * kSide * kSamples; ++i) {
         auto state = begin_path<F, ReplayedMethod>(camera, path, {kSide, kSide, i % kSamples}, i / kSamples);
-        PathStore<ReplayedMethod> store;
+        ReplayedMethod::Store store;
         PathCounters counters;
         trace_path<F>(PathContext<ReplayedMethod>{view, method, path}, BvhIntersector{view}, state, store, counters);
         if (counters.method.cut_returns > 0) continue;

@@ -133,7 +133,6 @@ TEST_CASE("Pictures: two paths as lines, the brighter one wide and numbered") {
         path.eye = gray.frame.snapshot.camera.eye;
         for (const Vec2f point : {Vec2f{0.5f, 0.6f}, Vec2f{0.2f + 0.2f * light, 0.3f}, Vec2f{0.8f, 0.4f}}) {
             VertexRecord vertex;
-            vertex.parent = static_cast<std::int32_t>(path.vertices.size()) - 1;
             vertex.origin = path.vertices.empty() ? path.eye : path.vertices.back().position;
             vertex.position = gray.seen_at(point, 0.5f);
             path.vertices.push_back(vertex);

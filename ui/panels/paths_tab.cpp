@@ -90,11 +90,6 @@ void draw_table_with_legend(PathExplorer& explorer) {
 
 std::string triple_text(Vec3f v) { return fmt::format("{:.3g}  {:.3g}  {:.3g}", v.x, v.y, v.z); }
 
-const char* outcome_of(const RouletteRecord& roulette) {
-    if (roulette.branches == 0) return "ends";
-    return roulette.branches == 1 ? "continues" : "splits";
-}
-
 void draw_light(const VertexRecord& vertex) {
     if (!is_black(vertex.emission.radiance))
         text_row(
@@ -113,8 +108,8 @@ void draw_light(const VertexRecord& vertex) {
 }
 
 void draw_direction(const ScatterRecord& direction) {
-    text_row("direction", fmt::format("to {} by {}", direction.next, name_of(direction.technique)),
-             "The vertex that it leads to, and the technique that sampled it: BSDF, field, or a delta lobe.");
+    text_row("direction", fmt::format("by {}", name_of(direction.technique)),
+             "The technique that sampled it: BSDF, field, or a delta lobe.");
     if (direction.technique != Technique::Delta)
         text_row("  densities",
                  fmt::format("{:.3g}: bsdf {:.3g}, field {:.3g}", direction.pdf_sa, direction.bsdf_pdf_sa,
@@ -142,9 +137,10 @@ void draw_vertex(const VertexRecord& vertex, std::size_t index, const SceneDescr
     draw_light(vertex);
     if (vertex.roulette)
         text_row("roulette",
-                 fmt::format("{:.3g} expected: {}", vertex.roulette->expected_branches, outcome_of(*vertex.roulette)),
-                 "Survival probability, above 1 the number of branches; and the outcome.");
-    for (const ScatterRecord& direction : vertex.scattered) draw_direction(direction);
+                 fmt::format("{:.3g}: {}", vertex.roulette->survival_probability,
+                             vertex.roulette->survives ? "continues" : "ends"),
+                 "Survival probability and outcome.");
+    if (vertex.scattered) draw_direction(*vertex.scattered);
 }
 
 const char* meaning_of(PathEnd end) {
@@ -169,8 +165,7 @@ void draw_path(const PathExplorer& explorer, const SceneDescription& scene) {
     ImGui::Separator();
     for (std::size_t i = 0; i < path.vertices.size(); ++i) {
         draw_vertex(path.vertices[i], i, scene);
-        for (const BranchEnd& end : path.ends)
-            if (end.vertex == i) text_row("end", meaning_of(end.reason));
+        if (i + 1 == path.vertices.size()) text_row("end", meaning_of(path.end));
         ImGui::Separator();
     }
 }

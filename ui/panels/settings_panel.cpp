@@ -107,12 +107,11 @@ void draw_estimator(ViewerModel& model) {
                 &depth, 1))
         model.render().set_max_depth(std::clamp(depth, 1, 1024));
     int roulette = static_cast<int>(model.render().settings().roulette);
-    if (choice_row(
-            "Roulette",
-            "The rule of Russian roulette and splitting. Spare: the path throughput ends paths, a large contribution "
-            "estimate keeps or splits them. Albedo: the throughput alone. Field: the contribution estimate alone. "
-            "Off: paths end by the max depth alone.",
-            &roulette, "Spare\0Albedo\0Field\0Off\0"))
+    if (choice_row("Roulette",
+                   "The rule of Russian roulette. Spare: the product of albedos ends paths, a large contribution "
+                   "estimate keeps "
+                   "them. Albedo: the product of albedos alone. Off: paths end by the max depth alone.",
+                   &roulette, "Spare\0Albedo\0Off\0"))
         model.render().set_roulette(static_cast<RouletteRule>(roulette));
     int guiding = static_cast<int>(model.render().settings().guiding);
     if (choice_row("Guiding",

@@ -14,7 +14,6 @@ std::string details_of(const Session& session, FilmSlot slot) {
     std::string text;
     const auto add = [&](const std::string& part) { text += (text.empty() ? "" : ", ") + part; };
     if (settings.roulette == RouletteRule::Albedo) add("albedo roulette");
-    if (settings.roulette == RouletteRule::Field) add("field roulette");
     if (settings.roulette == kNoRoulette) add("no roulette");
     const FeatureSet needed = session.needed_features(slot);
     if (!needed.covers(session.film_origin(slot).forced)) add("effects forced");

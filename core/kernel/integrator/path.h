@@ -8,18 +8,17 @@
 #include "core/kernel/base/rng.h"
 #include "core/kernel/film/sample_variance.h"
 #include "core/kernel/film/vertex_sequence.h"
-#include "core/kernel/integrator/branches.h"
+#include "core/kernel/methods/method.h"
 #include "core/kernel/shading/absorption.h"
 #include "core/kernel/shading/light_tree.h"
 
 namespace pl {
 
-/// Source of the contribution estimate that decides roulette and splitting. The product of albedos is always
-/// available; the estimate by a guiding field is more precise, but may be wrong.
+/// Source of the contribution estimate that decides roulette. The product of albedos is always available; the estimate by a guiding
+/// field is more precise, but may be wrong.
 enum class RouletteRule : std::uint32_t {
-    Spare,   ///< the field's estimate may keep or split a path, but not end it sooner than the albedos alone would
-    Albedo,  ///< the albedos alone; no path is split
-    Field,   ///< the field's estimate alone, if there is one   [Vorba and Krivanek 2016]
+    Spare,   ///< the field's estimate may keep a path, but not end it sooner than the albedos alone would
+    Albedo,  ///< the albedos alone
 };
 
 /// The settings of paths besides scene, camera and method.
@@ -30,8 +29,7 @@ struct PathSettings {
     std::uint32_t max_depth = 64;  ///< most surface vertices of a path; longer ones are truncated and counted
     std::uint32_t roulette_start =
         3;  ///< vertices after which Russian roulette may end a path, see counted_vertices()
-    float roulette_threshold = 1.0f;    ///< contribution estimate below which a path plays roulette
-    float split_threshold = kInfinity;  ///< contribution estimate above which it is split, if the method can
+    float roulette_threshold = 1.0f;  ///< contribution estimate below which a path plays roulette
     RouletteRule roulette = RouletteRule::Spare;
     std::uint32_t next_event = 0;  ///< 1: sample lights at every vertex, combined by multiple importance sampling
 };
@@ -90,53 +88,33 @@ using LightChoiceOf = std::conditional_t<learns_lights<F, M>, LightChoice, NoLig
 template <FeatureSet F, class M>
 struct PathState {
     Ray ray;                        ///< the segment to trace next
-    Vec3f throughput{1.0f};         ///< product of f cos / pdf, and of roulette and splitting weights
+    Vec3f throughput{1.0f};         ///< product of f cos / pdf, and of roulette weights
     Vec3f radiance{0.0f};           ///< of the path's estimator so far
     float direction_pdf_sa = 0.0f;  ///< density of ray.direction; 0 if no light was sampled at its origin
     float survival = 1.0f;          ///< product of albedos over the survival probabilities so far
     std::uint32_t pixel = 0;        ///< or the probe's number
     std::uint32_t sample = 0;
-    std::uint32_t vertices = 0;  ///< surface vertices so far
+    std::uint32_t vertices = 0;  ///< surface vertices so far, and so the index of the current one's random numbers
     [[no_unique_address]] std::conditional_t<F.has_any(kLobeFeatures), SpecularChain, Nothing> chain{};
     [[no_unique_address]] std::conditional_t<F.has_any(kLobeFeatures), SpecularCount, NoSpecularCount> specular{};
     [[no_unique_address]] std::conditional_t<kTracksMedium<F>, PathMedium, NoPathMedium> medium{};
     [[no_unique_address]] LightChoiceOf<F, M> lights{};  ///< at the vertex of direction_pdf_sa
     [[no_unique_address]] typename M::Memory memory{};
     [[no_unique_address]] typename M::Expectation expectation{};
-    [[no_unique_address]] BranchesOf<M> branches;
-
-    /// Index of the random numbers of the current vertex: unique within the path, its branches included.
-    PL_HD std::uint32_t draw_index() const {
-        if constexpr (SplittingMethod<M>) return vertices + (branches.number << kBranchShift);
-        return vertices;
-    }
 };
 
-/// Gives a path its memory outside of its state. Not needed unless needs_store().
+/// Whether the method's Memory has a part outside of the path's state, which the driver of the path provides.
+template <class M>
+inline constexpr bool kNeedsStore = !std::is_empty_v<typename M::Store>;
+
 template <FeatureSet F, class M>
-PL_HD inline void keep_store(PathState<F, M>& state, [[maybe_unused]] PathStore<M>* store) {
-    if constexpr (!std::is_empty_v<typename M::Store>) state.memory.keep(&store->method);
-    if constexpr (SplittingMethod<M>) state.branches.stack = store->forks;
+PL_HD inline void keep_store(PathState<F, M>& state, [[maybe_unused]] typename M::Store* store) {
+    if constexpr (kNeedsStore<M>) state.memory.keep(store);
 }
-/// Takes it back, where the memory ends before the state does.
+/// Takes it back, where the store ends before the state does.
 template <FeatureSet F, class M>
 PL_HD inline void drop_store(PathState<F, M>& state) {
-    if constexpr (!std::is_empty_v<typename M::Store>) state.memory = {};
-    if constexpr (SplittingMethod<M>) state.branches.stack = nullptr;
-}
-
-/// The memory of a branch that begins after another one of its path.
-template <class Memory>
-PL_HD inline Memory begin_memory([[maybe_unused]] const Memory& last) {
-    if constexpr (requires { last.emptied(); })
-        return last.emptied();
-    else
-        return {};
-}
-PL_HD inline bool splits_paths(const PathSettings& settings) { return settings.split_threshold < kInfinity; }
-template <class M>
-PL_HD inline bool needs_store(const PathSettings& settings) {
-    return !std::is_empty_v<typename M::Store> || (SplittingMethod<M> && splits_paths(settings));
+    if constexpr (kNeedsStore<M>) state.memory = {};
 }
 
 /// A light sample that contributes if nothing occludes it.

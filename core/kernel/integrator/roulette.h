@@ -1,4 +1,4 @@
-// Russian roulette and splitting: the number of paths that continue from a vertex, by their contribution estimate.
+// Russian roulette: whether a path continues from a vertex, by its contribution estimate.
 #pragma once
 
 #include "core/kernel/integrator/medium.h"
@@ -26,18 +26,16 @@ PL_HD inline void count_specular(const PathSettings& settings, PathState<F, M>& 
     if (!has_played && state.specular.vertices < kMostSpecularBeforeRoulette) ++state.specular.vertices;
 }
 
-/// Survival probability for a contribution estimate. Estimates by a field may be wrong, most of all early; with
-/// RouletteRule::Spare they can keep a path but not end it sooner than the albedos alone would: weights then grow no
-/// faster than reflection reduces them, and their variance stays finite. RouletteRule::Field uses the field's
-/// estimate alone.
+/// Survival probability for a contribution estimate. Estimates by a field may be wrong, most of all early: they can keep a path but
+/// not end it sooner than the albedos alone would, so weights grow no faster than reflection reduces them, and their variance stays
+/// finite.
 template <class N>
 PL_INLINE typename N::Real survival_probability(const PathSettings& settings, const typename N::Real& estimate,
                                                 const typename N::Real& survival) {
     typename N::Real wanted = survival;
     if (settings.roulette != RouletteRule::Albedo) {
         wanted = estimate / settings.roulette_threshold;
-        if (settings.roulette == RouletteRule::Spare)
-            wanted = select(static_cast<typename N::Mask>(wanted < survival), survival, wanted);
+        wanted = select(static_cast<typename N::Mask>(wanted < survival), survival, wanted);
     }
     return clamp_real<N>(wanted, kMinSurvival, 1.0f);
 }
@@ -60,43 +58,21 @@ PL_INLINE RouletteRound<N> play_roulette(const PathSettings& settings, const typ
     return {u >= probability, 1.0f / probability, min_real<N>(survival / probability, 1.0f)};
 }
 
-/// The continuation of a path at a vertex.
-struct Continuation {
-    std::uint32_t branches = 0;  ///< 0: the path ends
-    float weight =
-        1.0f;  ///< of one branch, as an estimator of the radiance reflected there: 1 / survival probability
-};
-
-/// Splits a path into branches, estimate / split_threshold on the mean, each with its share of the throughput. `u`
-/// decides about the last one.
-template <FeatureSet F, class M>
-PL_HD inline Continuation split(const PathSettings& settings, float estimate, float u, PathState<F, M>& state) {
-    const float wanted = min_of(estimate / settings.split_threshold, static_cast<float>(state.branches.room()));
-    const auto sure = static_cast<std::uint32_t>(wanted);
-    state.throughput *= 1.0f / wanted;
-    return {.branches = u < wanted - static_cast<float>(sure) ? sure + 1u : sure};
-}
-
-/// Splits a path with a large contribution estimate, and plays Russian roulette with one that has a small one.
-/// [Vorba and Krivanek 2016, "Adjoint-Driven Russian Roulette and Splitting in Light Transport Simulation"]
+/// Plays Russian roulette with a path that has a small contribution estimate. Returns the weight of a path that goes on, 1 / survival
+/// probability, which its throughput then includes; 0 if the path ends.
+/// [after Vorba and Krivanek 2016, "Adjoint-Driven Russian Roulette and Splitting in Light Transport Simulation"]
 template <FeatureSet F, Method M>
-PL_HD inline Continuation play_roulette(const M& method, const PathSettings& settings,
-                                        const typename M::Vertex& vertex, Vec3f albedo, float u,
-                                        PathState<F, M>& state) {
+PL_HD inline float play_roulette(const M& method, const PathSettings& settings, const typename M::Vertex& vertex,
+                                 Vec3f albedo, float u, PathState<F, M>& state) {
     state.survival *= max_component(albedo);
     const float estimate =
         method.estimate_contribution(vertex, albedo, state.throughput, state.survival, state.expectation);
-    if (counted_vertices(state) < settings.roulette_start) return {.branches = 1};
-    if constexpr (SplittingMethod<M>) {
-        // Forks remember no medium: paths inside of glass are not split.
-        if (estimate > settings.split_threshold && state.branches.room() > 1 && medium_of(state) == kNoMedium)
-            return split(settings, estimate, u, state);
-    }
+    if (counted_vertices(state) < settings.roulette_start) return 1.0f;
     const RouletteRound<One> round = play_roulette<One>(settings, estimate, state.survival, u);
-    if (round.ends) return {};
+    if (round.ends) return 0.0f;
     state.throughput *= round.weight;
     state.survival = round.survival;
-    return {.branches = 1, .weight = round.weight};
+    return round.weight;
 }
 
 }  // namespace pl

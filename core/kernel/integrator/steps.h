@@ -26,11 +26,10 @@ struct VertexNumbers {
 template <FeatureSet F, class M>
 PL_HD inline VertexNumbers draw_vertex_numbers(const PathSettings& settings, const PathState<F, M>& state) {
     const Rng rng = path_rng(settings, state.pixel, state.sample);
-    VertexNumbers numbers{.scatter =
-                              vertex_numbers(rng, settings.sequences, state.draw_index() + 1, Purpose::Scatter)};
+    VertexNumbers numbers{.scatter = vertex_numbers(rng, settings.sequences, state.vertices + 1, Purpose::Scatter)};
     if constexpr (F.has(Feature::NextEventEstimation)) {
         if (settings.next_event != 0)
-            numbers.light = vertex_numbers(rng, settings.sequences, state.draw_index() + 1, Purpose::Light);
+            numbers.light = vertex_numbers(rng, settings.sequences, state.vertices + 1, Purpose::Light);
     }
     return numbers;
 }
@@ -38,7 +37,7 @@ PL_HD inline VertexNumbers draw_vertex_numbers(const PathSettings& settings, con
 /// The numbers by which a path is scattered at its current vertex.
 template <FeatureSet F, class M>
 PL_HD inline ScatterNumbers scatter_numbers(const PathSettings& settings, const PathState<F, M>& state, Vec4f u) {
-    return {.rng = path_rng(settings, state.pixel, state.sample), .index = state.draw_index(), .u = u};
+    return {.rng = path_rng(settings, state.pixel, state.sample), .index = state.vertices, .u = u};
 }
 
 /// The first number of a pixel's sequence.
@@ -155,21 +154,14 @@ struct ShadeOutput : StepOutput<M> {
     ScatterPoint<F, M>& from;
 };
 
-/// Russian roulette and splitting at the vertex `from`, whose random numbers are `u`. Returns whether the path continues.
+/// Russian roulette at the vertex `from`, by the uniform number `u`. Returns whether the path continues.
 template <FeatureSet F, Method M>
-PL_HD_INLINED PathStatus continue_path(const PathContext<M>& context, const Hit& hit, float u, PathState<F, M>& state,
+PL_HD_INLINED PathStatus continue_path(const PathContext<M>& context, float u, PathState<F, M>& state,
                                        ScatterPoint<F, M>& from, const StepOutput<M>& out) {
-    const Continuation next =
-        play_roulette(context.method, context.settings, from.vertex, from.bsdf.albedo(), u, state);
-    if (next.branches == 0) return terminate_path(context.method, state, out);
-    from.roulette_weight = next.weight;
+    from.roulette_weight = play_roulette(context.method, context.settings, from.vertex, from.bsdf.albedo(), u, state);
+    if (from.roulette_weight == 0.0f) return terminate_path(context.method, state, out);
     if constexpr (F.has_any(kLobeFeatures)) {
-        if (from.bsdf.is_specular()) state.chain.weight *= next.weight;
-    }
-    if constexpr (SplittingMethod<M>) {
-        if (next.branches > 1)
-            state.branches.wait({-state.ray.direction, hit, state.throughput, state.survival, state.vertices,
-                                 next.branches - 1, keep_vertex(context.method, from.vertex)});
+        if (from.bsdf.is_specular()) state.chain.weight *= from.roulette_weight;
     }
     return PathStatus::Continues;
 }
@@ -213,39 +205,6 @@ PL_HD inline void connect_light(const M& method, const ShadowRequest<M>& shadow,
                                 PathCounters& counters) {
     state.radiance += shadow.contribution;
     method.light_received(state.memory, counters.method);
-}
-
-/// Scatters the next waiting branch. It starts with an empty Memory, and without a light sample of its own.
-template <FeatureSet F, SplittingMethod M>
-PL_HOST_APART PL_HD_INLINED PathStatus begin_branch(const PathContext<M>& context, PathState<F, M>& state,
-                                                    PathCounters& counters) {
-    const Fork<KeptVertex<M>> fork = state.branches.begin();
-    state.throughput = fork.throughput;
-    state.survival = fork.survival;
-    state.vertices = fork.vertices;
-    state.memory = begin_memory(state.memory);
-    state.chain = {};
-    state.medium = {};
-    const SurfacePoint surface = make_surface_point<F>(context.scene, fork.hit, fork.wo);
-    const Bsdf<F> bsdf = make_bsdf<F>(context.scene, surface, hit_weights(fork.hit), fork.wo);
-    const Rng rng = path_rng(context.settings, state.pixel, state.sample);
-    const Vec4f u = rng.draw(state.draw_index(), Purpose::Scatter);
-    typename M::Sample none{};
-    return scatter<F, M>(context.method, {surface, bsdf, restore_vertex(context.method, fork.vertex)},
-                         {.rng = rng, .index = state.draw_index(), .u = u}, state, {none, counters});
-}
-
-/// Ends a path, or a branch of it, after its last shadow ray: makes the training samples that need whole paths, and
-/// begins the next branch. Returns whether there is one.
-template <FeatureSet F, Method M>
-PL_HD_INLINED PathStatus finish_branch(const PathContext<M>& context, PathState<F, M>& state,
-                                       PathCounters& counters) {
-    context.method.finished(state.memory, counters.method);
-    if constexpr (SplittingMethod<M>) {
-        while (state.branches.waiting > 0)
-            if (begin_branch(context, state, counters) == PathStatus::Continues) return PathStatus::Continues;
-    }
-    return PathStatus::Finished;
 }
 
 }  // namespace pl

@@ -27,12 +27,12 @@ PL_HD_INLINED PathStatus shade_segment(const PathContext<M>& context, const Hit&
 /// Samples a light at the end of a path's segment, if the path may continue there, and then plays the roulette. `shadow` comes in
 /// cleared. `status`: of shade_segment().
 template <FeatureSet F, Method M>
-PL_HD_INLINED PathStatus sample_light_at_end(const PathContext<M>& context, const Hit& hit, PathStatus status,
-                                             SegmentEnd<F, M>& end, PathState<F, M>& state, ShadowRequest<M>& shadow,
+PL_HD_INLINED PathStatus sample_light_at_end(const PathContext<M>& context, PathStatus status, SegmentEnd<F, M>& end,
+                                             PathState<F, M>& state, ShadowRequest<M>& shadow,
                                              PathCounters& counters) {
     if (status != PathStatus::Continues) return status;
     request_light(context, end.from, end.numbers.light, state, shadow);
-    return continue_path<F, M>(context, hit, end.numbers.scatter.w, state, end.from, {end.sample, counters});
+    return continue_path<F, M>(context, end.numbers.scatter.w, state, end.from, {end.sample, counters});
 }
 
 /// Scatters a path at the end of its segment, if it continues there: its ray is then the next segment. `status`: of
@@ -48,7 +48,7 @@ PL_HD_INLINED PathStatus scatter_at_end(const PathContext<M>& context, PathStatu
     return status;
 }
 
-/// Traces the shadow ray of a light sample, if there is one; the next branch follows the end of one. `status`: of scatter_at_end().
+/// Traces the shadow ray of a light sample, if there is one, and tells the method of the path's end. `status`: of scatter_at_end().
 template <FeatureSet F, Method M, Intersector I>
 PL_HD_INLINED PathStatus connect_segment(const PathContext<M>& context, const I& intersector,
                                          const ShadowRequest<M>& shadow, PathStatus status, PathState<F, M>& state,
@@ -62,7 +62,8 @@ PL_HD_INLINED PathStatus connect_segment(const PathContext<M>& context, const I&
         }
         context.method.record_light(shadow.light, is_visible);
     }
-    return status == PathStatus::Finished ? finish_branch(context, state, counters) : status;
+    if (status == PathStatus::Finished) context.method.finished(state.memory, counters.method);
+    return status;
 }
 
 /// Traces one segment of a path, and the shadow ray at its end.
@@ -73,7 +74,7 @@ PL_HD_INLINED PathStatus trace_segment(const PathContext<M>& context, const I& i
     ShadowRequest<M> shadow;
     SegmentEnd<F, M> end;
     PathStatus status = shade_segment<F>(context, hit, state, end, counters);
-    status = sample_light_at_end<F>(context, hit, status, end, state, shadow, counters);
+    status = sample_light_at_end<F>(context, status, end, state, shadow, counters);
     status = scatter_at_end<F>(context, status, end, state, counters);
     return connect_segment<F>(context, intersector, shadow, status, state, counters);
 }
@@ -81,7 +82,7 @@ PL_HD_INLINED PathStatus trace_segment(const PathContext<M>& context, const I& i
 /// `store`: the path's memory outside of its state.
 template <FeatureSet F, Method M, Intersector I>
 PL_HD inline void trace_path(const PathContext<M>& context, const I& intersector, PathState<F, M>& state,
-                             PathStore<M>& store, PathCounters& counters) {
+                             typename M::Store& store, PathCounters& counters) {
     keep_store(state, &store);
     PathStatus status = PathStatus::Continues;
     while (status == PathStatus::Continues) status = trace_segment<F>(context, intersector, state, counters);
@@ -89,7 +90,7 @@ PL_HD inline void trace_path(const PathContext<M>& context, const I& intersector
 template <FeatureSet F, Method M, Intersector I>
 PL_HD inline void trace_path(const PathContext<M>& context, const I& intersector, PathState<F, M>& state,
                              PathCounters& counters) {
-    PathStore<M> store;
+    typename M::Store store;
     trace_path<F>(context, intersector, state, store, counters);
     drop_store(state);
 }

@@ -60,8 +60,6 @@ struct Guided : Target<F> {
     using Target<F>::field;
     using Target<F>::mixture;
 
-    static constexpr bool kSplitsPaths = true;
-
     PL_HD Vertex locate(const SurfacePoint& surface, MethodCounters& counters) const {
         return count_lookup(field.locate(surface), counters);
     }

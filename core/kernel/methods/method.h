@@ -73,8 +73,6 @@ using MethodCounters = MethodCountersOf<std::uint64_t>;
 ///              +-- scattered <--- sample_direction          (record_light, before it light_received if the light is
 ///                                                            visible: any time after light_sampled, before the
 ///                                                            next observe)
-///
-/// Branches of a split path run through it one after the other, each with a Memory of its own.
 struct MethodHooks {
     struct Vertex {};  ///< data of a surface point, e.g. its location in a field
     struct Memory {};  ///< part of the path's state: training samples whose targets are not complete
@@ -84,10 +82,8 @@ struct MethodHooks {
     struct Light {};        ///< a light sample made by light_sampled(), added by record_light() before the pass ends
     struct Expectation {};  ///< part of the path's state: the contribution expected at its first vertex
 
-    static constexpr bool kSplitsPaths = false;   ///< whether estimate_contribution() is good enough to split by
     static constexpr bool kLearnsLights = false;  ///< whether learned_lights() chooses among many lights
-
-    static constexpr bool kIsConstant = false;  ///< whether it is guided by a field that it does not train
+    static constexpr bool kIsConstant = false;    ///< whether it is guided by a field that it does not train
 
     /// Whether the integrator serves these settings of its method.
     static constexpr bool serves(const LearningSettings&) { return true; }
@@ -109,7 +105,7 @@ struct MethodHooks {
     PL_HD void scattered(auto&, const auto& /*vertex*/, const ScatterEvent&, MethodCounters&) const {}
     /// Roulette, the depth limit or a zero-valued direction ended the path at a vertex that reflects.
     PL_HD void terminated(auto&, MethodCounters&) const {}
-    /// The path, or a branch of it, has ended, and its last light sample is connected.
+    /// The path has ended, and its last light sample is connected.
     PL_HD void finished(auto&, MethodCounters&) const {}
 };
 
@@ -131,7 +127,6 @@ concept Method = std::derived_from<M, MethodHooks> &&
     { method.observe(memory, observation, vertex, counters) } -> std::same_as<typename M::Sample>;
     { method.record(typename M::Sample{}) } -> std::same_as<void>;
     { method.estimate_contribution(vertex, wi, wi, float{}, expectation) } -> std::same_as<float>;
-    { M::kSplitsPaths } -> std::convertible_to<bool>;
     { method.light_sampled(memory, vertex, LightEstimate{}) } -> std::same_as<typename M::Light>;
     method.record_light(typename M::Light{}, bool{});
     method.light_received(memory, counters);
@@ -139,9 +134,5 @@ concept Method = std::derived_from<M, MethodHooks> &&
     method.terminated(memory, counters);
     method.finished(memory, counters);
 };
-
-/// Methods whose paths may be split.
-template <class M>
-concept SplittingMethod = Method<M> && M::kSplitsPaths;
 
 }  // namespace pl

@@ -34,7 +34,6 @@ inline constexpr Variant kVariants[] = {
     {"Sarsa, indirect", true, LearningRate::Forgetful, {LearningTarget::Sarsa, LearnedLight::Indirect}},
     {"Monte Carlo, indirect", true, LearningRate::Forgetful, {LearningTarget::MonteCarlo, LearnedLight::Indirect}},
     {"roulette by albedo", false, LearningRate::Forgetful, {}, RouletteRule::Albedo},
-    {"roulette by field", false, LearningRate::Forgetful, {}, RouletteRule::Field},
     {"SD-tree", false, LearningRate::Forgetful, {}, RouletteRule::Spare, Representation::SdTree},
     {"SD-tree, light samples", true, LearningRate::Forgetful, {}, RouletteRule::Spare, Representation::SdTree},
     {"lobes", false, LearningRate::Forgetful, {}, RouletteRule::Spare, Representation::Lobes},

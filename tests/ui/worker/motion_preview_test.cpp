@@ -32,7 +32,7 @@ TEST_CASE("Motion preview: a map that is being precomputed is neither shown nor 
 TEST_CASE("Motion preview: light samples end with the estimator as it was, and no sample stays") {
     SessionBench bench;
     Session& session = bench.session;
-    session.apply(EditEstimator{7, false, RouletteRule::Field, GuidingRule::Always});
+    session.apply(EditEstimator{7, false, RouletteRule::Albedo, GuidingRule::Always});
     MotionPreview preview;
     CHECK(preview.apply(session, Preview::LightSamples));
     CHECK_FALSE(preview.apply(session, Preview::LightSamples));
@@ -42,7 +42,7 @@ TEST_CASE("Motion preview: light samples end with the estimator as it was, and n
     CHECK(preview.apply(session, Preview::None));
     CHECK_FALSE(session.settings().next_event);
     CHECK(session.settings().max_depth == 7);
-    CHECK(session.settings().roulette == RouletteRule::Field);
+    CHECK(session.settings().roulette == RouletteRule::Albedo);
     CHECK(session.settings().guiding == GuidingRule::Always);
     CHECK(session.passes(kDefault) == 0);
 }

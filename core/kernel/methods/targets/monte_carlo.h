@@ -42,7 +42,6 @@ struct MonteCarlo : FieldTrainer<F> {
         Vec3f light{0.0f};  ///< reflected radiance of that light sample
 
         PL_HD void keep(Store* store) { steps = store->steps; }
-        PL_HD Memory emptied() const { return {.steps = steps}; }
     };
 
     PL_HD typename FieldTrainer<F>::Sample observe(Memory& memory, const Observation& observation, const Vertex&,
