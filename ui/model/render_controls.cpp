@@ -109,8 +109,6 @@ void RenderControls::adopt_field(const std::shared_ptr<LearnedField>& field) {
     selection_.deselect();
     selection_.pins().clear();
     link_.end_turns(settings_.method);
-    field->settings.lookup = settings_.field.lookup;
-    field->shape.lookup = settings_.field.lookup;
     if (field->method != settings_.method) previous_method_ = settings_.method;
     settings_.method = field->method;
     settings_.field = field->settings;
