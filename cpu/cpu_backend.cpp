@@ -61,7 +61,7 @@ public:
         if (is_built)
             tracer_->move_to(scene_->view());
         else
-            tracer_.emplace(scene_->view(), settings_.intersector);
+            tracer_.emplace(scene_->view());
         lights_ = LightTable(scene_->view());
     }
 

@@ -21,7 +21,7 @@ constexpr int kBatches = 64;
 template <Method M>
 void add_batch(Picture& picture, const Room& room, const M& method, std::uint64_t seed, std::uint32_t passes,
                std::uint32_t first) {
-    const BatchTracer tracer(room.scene->view(), IntersectorChoice::Dense);
+    const BatchTracer tracer(room.scene->view());
     const Camera camera = make_camera(small_room().camera, kSide, kSide);
     HostArray<FilmPixel> pixels(kSide * kSide);
     const FilmView film{view_of(pixels), kSide, kSide};
