@@ -99,12 +99,6 @@ void RenderControls::set_size(int width, int height) {
     worker_.submit(EditSize{width, height});
 }
 
-void RenderControls::set_forced_effects(FeatureSet forced) {
-    if (forced == settings_.forced_effects) return;
-    settings_.forced_effects = forced;
-    worker_.submit(EditEffects{forced});
-}
-
 void RenderControls::adopt_field(const std::shared_ptr<LearnedField>& field) {
     selection_.deselect();
     selection_.pins().clear();

@@ -33,7 +33,6 @@ public:
     void set_mixture(MixtureSettings mixture);
     void set_field(const FieldSettings& field);
     void set_size(int width, int height);
-    void set_forced_effects(FeatureSet forced);
     /// Continues from a saved field: its method and settings become those of the rendering.
     void adopt_field(const std::shared_ptr<LearnedField>& field);
 
