@@ -21,7 +21,6 @@ std::shared_ptr<const LearnedField> FieldFiles::take(const SceneDescription& sce
     if (!loaded_) return nullptr;
     const auto field = std::make_shared<LearnedField>(std::move(*loaded_));
     loaded_.reset();
-    fit_to_run(*field, options.render.field);
     try {
         require_learned_in(scene, *field);
     } catch (const Error& error) {
@@ -35,7 +34,6 @@ void FieldFiles::hand_over(Session& session, const Options& options, Console& co
     LearnedField field = std::move(*loaded_);
     loaded_.reset();
     console.log().detail(fmt::format("{}: {}", options.load_field, summary_of(field)));
-    fit_to_run(field, options.render.field);
     try {
         session.import_field(std::move(field));
     } catch (const Error& error) {

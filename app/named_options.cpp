@@ -11,8 +11,6 @@
 namespace pl {
 namespace {
 
-constexpr std::array<std::string_view, 3> kLookups{"kdtree", "linear", "grid"};  // by number
-
 /// A value and its name.
 template <class Value>
 struct Named {
@@ -22,15 +20,12 @@ struct Named {
 constexpr std::array kCurves{Named<ToneCurve>{ToneCurve::Clamp, "clamp"},
                              Named<ToneCurve>{ToneCurve::Reinhard, "reinhard"},
                              Named<ToneCurve>{ToneCurve::Aces, "aces"}};
-constexpr std::array kRates{
-    Named<LearningRate>{LearningRate::SampleMean, "mean"}, Named<LearningRate>{LearningRate::Forgetful, "forgetful"},
-    Named<LearningRate>{LearningRate::Power, "power"}, Named<LearningRate>{LearningRate::Floor, "floor"}};
+constexpr std::array kRates{Named<LearningRate>{LearningRate::SampleMean, "mean"},
+                            Named<LearningRate>{LearningRate::Forgetful, "forgetful"}};
 constexpr std::array kRepresentations{
     Named<Representation>{Representation::Table, "table"}, Named<Representation>{Representation::SdTree, "sd-tree"},
     Named<Representation>{Representation::Lobes, "lobes"}, Named<Representation>{Representation::Neural, "neural"},
     Named<Representation>{Representation::NeuralVertex, "neural-vertex"}};
-constexpr std::array kIterations{Named<Iterations>{Iterations::Updates, "updates"},
-                                 Named<Iterations>{Iterations::Doubling, "doubling"}};
 constexpr std::array kTargets{Named<LearningTarget>{LearningTarget::ExpectedSarsa, "expected-sarsa"},
                               Named<LearningTarget>{LearningTarget::Sarsa, "sarsa"},
                               Named<LearningTarget>{LearningTarget::MonteCarlo, "monte-carlo"}};
@@ -69,12 +64,6 @@ void parse_tone_curve(Options& options, const std::string& text) {
     parse_named(options.display.curve, kCurves, text);
 }
 
-void parse_lookup(Options& options, const std::string& text) {
-    const auto found = std::find(kLookups.begin(), kLookups.end(), std::string_view(text));
-    if (found == kLookups.end()) fail_choice(names_in(kLookups, [](std::string_view name) { return name; }), text);
-    options.render.field.lookup = static_cast<Lookup>(found - kLookups.begin());
-}
-
 void parse_representation(Options& options, const std::string& text) {
     parse_named(options.render.field.representation, kRepresentations, text);
 }
@@ -85,9 +74,6 @@ void parse_representations(Options& options, const std::string& text) {
         parse_named(field, kRepresentations, name);
         if (std::ranges::find(options.fields, field) == options.fields.end()) options.fields.push_back(field);
     }
-}
-void parse_iterations(Options& options, const std::string& text) {
-    parse_named(options.render.field.iterations, kIterations, text);
 }
 void parse_learning_rate(Options& options, const std::string& text) {
     parse_named(options.render.field.rate, kRates, text);
@@ -119,13 +105,10 @@ std::string print_representations(const Options& options) {
     for (const Representation field : options.fields) names.push_back(name_of(field));
     return fmt::format("{}", fmt::join(names, ","));
 }
-std::string_view name_of(Iterations iterations) { return name_in(kIterations, iterations); }
 std::string_view name_of(LearningRate rate) { return name_in(kRates, rate); }
 std::string_view name_of(LearningTarget target) { return name_in(kTargets, target); }
 std::string_view name_of(LearnedLight light) { return name_in(kLights, light); }
 std::string_view name_of(RouletteRule rule) { return name_in(kRoulettes, rule); }
 std::string_view name_of(GuidingRule rule) { return name_in(kGuidings, rule); }
-
-std::string_view lookup_name(Lookup lookup) { return kLookups[static_cast<std::size_t>(lookup)]; }
 
 }  // namespace pl

@@ -81,14 +81,12 @@ std::string words(const OptionSpec& spec, const std::string& value) {
     return fmt::format("--{} {}", spec.name, value);
 }
 
-/// Options given along with a loaded field must agree with it, except for the lookup, which finds the same volumes
-/// either way.
+/// Options given along with a loaded field must agree with it.
 void adopt_field(const CommandLine& line, const LearnedField& field, Options& options) {
     const Options asked = options;
     options.render.method = field.method;
     options.render.field = field.settings;
     for (const auto& [spec, text] : line.given) {
-        if (spec->name == "lookup") options.render.field.lookup = asked.render.field.lookup;
         if (spec->print == nullptr || spec->print(asked) == spec->print(options)) continue;
         const std::string own = spec->print(options);
         throw Error(ErrorKind::Usage,
@@ -128,10 +126,6 @@ void check_combinations(Command command, const Options& options) {
 /// SD-trees, lobes and networks are learned; of the first two, "auto" takes the CPU.
 void settle_representation(Options& options) {
     const FieldSettings& field = options.render.field;
-    if (field.representation != Representation::SdTree && field.iterations != Iterations::Updates)
-        throw Error(ErrorKind::Usage, fmt::format("--iterations {}: expected --field {} with it, got --field {}",
-                                                  name_of(field.iterations), name_of(Representation::SdTree),
-                                                  name_of(field.representation)));
     if (field.representation == Representation::Table) return;
     const std::string_view name = name_of(field.representation);
     if (info_of(options.render.method).precomputes)

@@ -5,21 +5,18 @@
 #include <string>
 #include <variant>
 
-#include "cpu/bvh_batch.h"
 #include "cpu/dense_intersector.h"
 #include "cpu/instance_tracer.h"
 #include "cpu/wide_intersector.h"
 
 namespace pl {
 
-enum class IntersectorChoice;
-
 /// Any of the batch intersectors behind one interface, and the instances of the scene. Dispatch is per batch, so its cost per ray is
 /// negligible.
 class BatchTracer {
 public:
-    /// Throws Error if the chosen intersector does not support the scene.
-    BatchTracer(const SceneView& scene, IntersectorChoice choice);
+    /// Up to kMaxDenseTriangles every ray is tested with all of them, above that by the wide hierarchy.
+    explicit BatchTracer(const SceneView& scene);
 
     void find_closest(RayBatch& batch, std::uint32_t count) const {
         std::visit([&](const auto& intersector) { intersector.find_closest(batch, count); }, intersector_);
@@ -36,12 +33,12 @@ public:
         if (instances_) instances_->move_to(scene.instances);
     }
 
-    /// Display name: "dense (avx512)", "wide (avx512)", "bvh".
+    /// Display name: "dense (avx512)", "wide (avx512)".
     std::string name() const;
 
 private:
-    using AnyIntersector = std::variant<BvhBatch, DenseIntersector, WideIntersector>;
-    static AnyIntersector choose(const SceneView& scene, IntersectorChoice choice);
+    using AnyIntersector = std::variant<DenseIntersector, WideIntersector>;
+    static AnyIntersector choose(const SceneView& scene);
 
     AnyIntersector intersector_;               ///< of the triangles that are in the scene directly
     std::optional<InstanceTracer> instances_;  ///< traced afterwards

@@ -61,7 +61,7 @@ public:
         if (is_built)
             tracer_->move_to(scene_->view());
         else
-            tracer_.emplace(scene_->view(), settings_.intersector);
+            tracer_.emplace(scene_->view());
         lights_ = LightTable(scene_->view());
     }
 
@@ -211,7 +211,7 @@ private:
         const ViewInfo& view = info_of(slot.view);
         if (!view.needs_volumes && !view.needs_tables) return {};
         if (!volumes_) throw Error(ErrorKind::Runtime, "CPU back end: expected volumes, got none");
-        ShownField shown{placement_view(*volumes_, shape_.lookup, shape_.extent), {}};
+        ShownField shown{placement_view(*volumes_, shape_.extent), {}};
         if (needs_volume_values(slot.view)) shown.volume_values = volume_values(slot);
         return shown;
     }

@@ -8,12 +8,8 @@
 
 namespace pl {
 
-/// Intersection algorithm. Auto: Dense up to 64 triangles, else Wide. Bvh serves as a peer in tests and benchmarks.
-enum class IntersectorChoice { Auto, Dense, Wide, Bvh };
-
 struct CpuSettings {
-    int threads = 0;  ///< 0: all hardware threads
-    IntersectorChoice intersector = IntersectorChoice::Auto;
+    int threads = 0;                   ///< 0: all hardware threads
     std::uint32_t batch_paths = 1024;  ///< paths in flight per thread; affects speed only, never results
 };
 

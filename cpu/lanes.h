@@ -241,11 +241,6 @@ struct Lanes {
     static PL_INLINE Uint to_count(const Int& i) { return std::bit_cast<Uint>(i); }
     static PL_INLINE Int bits_of(const Real& x) { return std::bit_cast<Int>(x); }
     static PL_INLINE Real from_bits(const Int& bits) { return std::bit_cast<Real>(bits); }
-    static PL_INLINE Real power(const Real& x, float p) {
-        Real powers = x;
-        for (std::uint32_t lane = 0; lane < kLaneWidth; ++lane) powers[lane] = pl::power(x[lane], p);
-        return powers;
-    }
     static PL_INLINE bool any(const Mask& mask) { return mask_bits(mask) != 0; }
     static PL_INLINE Real load(const float* values, const Int& index) {
 #if defined(__AVX512F__)

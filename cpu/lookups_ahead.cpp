@@ -6,10 +6,9 @@ namespace pl {
 namespace {
 
 PlacementRows rows_of(const SceneView& scene, const PlacementView& placement) {
-    const bool has_grid = placement.tree.lookup == Lookup::Grid;
     PlacementRows rows = rows_of(scene);
     rows.materials = scene.materials.data;
-    rows.sided_triangles = has_grid ? placement.grid.sides.count / 2 : 0;
+    rows.sided_triangles = placement.grid.sides.count / 2;
     rows.sides = placement.grid.sides.data;
     rows.grids = placement.grid.grids.data;
     rows.cells = placement.grid.cells.data;

@@ -117,7 +117,7 @@ ShownField DeviceFields::shown(const FilmSlot& slot) {
     const ViewInfo& view = info_of(slot.view);
     if (!view.needs_volumes && !view.needs_tables) return {};
     if (volumes_.normals.size() == 0) throw Error(ErrorKind::Runtime, "CUDA back end: expected volumes, got none");
-    ShownField shown{placement_view(volumes_, shape_.lookup, shape_.extent), {}};
+    ShownField shown{placement_view(volumes_, shape_.extent), {}};
     if (needs_volume_values(slot.view)) shown.volume_values = volume_values(slot);
     return shown;
 }

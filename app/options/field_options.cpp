@@ -17,11 +17,6 @@ constexpr auto kFieldOptions = std::to_array<OptionSpec>({
              "sd-tree and lobes on the CPU alone",
      .commands = kSampling, .in_scene_files = true, .parse = parse_representation,
      .print = [](const Options& o) { return std::string(name_of(o.render.field.representation)); }},
-    {.name = "iterations", .flags = "--iterations", .value = "NAME", .group = kField,
-     .help = "Training samples that an SD-tree is built from: updates (default), all so far by the learning rate, or doubling, "
-             "those of the last iteration alone, each twice as long as the one before",
-     .is_expert = true, .commands = kSampling, .in_scene_files = true, .parse = parse_iterations,
-     .print = [](const Options& o) { return std::string(name_of(o.render.field.iterations)); }},
     {.name = "volumes", .flags = "--volumes", .value = "N", .group = kField,
      .help = "Number of radiance volumes (default: what the budget holds, at most 1000)",
      .is_expert = true, .commands = kPaths, .in_scene_files = true,
@@ -54,8 +49,7 @@ constexpr auto kFieldOptions = std::to_array<OptionSpec>({
      .is_expert = true, .commands = kPaths, .in_scene_files = true, .parse = parse_bsdf_fraction,
      .print = [](const Options& o) { return print_bsdf_fraction(o.render.mixture); }},
     {.name = "learning-rate", .flags = "--learning-rate", .value = "NAME", .group = kField,
-     .help = "Step of an update: forgetful (default; early training samples lose their weight), mean "
-             "(1/(1+visits)), power (n^-0.7), or floor (mean, but at least 0.05)",
+     .help = "Step of an update: forgetful (default; early training samples lose their weight), or mean (1/(1+visits))",
      .is_expert = true, .commands = kSampling, .in_scene_files = true, .parse = parse_learning_rate,
      .print = [](const Options& o) { return std::string(name_of(o.render.field.rate)); }},
     {.name = "learn-target", .flags = "--learn-target", .value = "NAME", .group = kField,
@@ -76,11 +70,6 @@ constexpr auto kFieldOptions = std::to_array<OptionSpec>({
      .print = [](const Options& o) {
          return o.render.learn_passes == kEveryPass ? "" : std::to_string(o.render.learn_passes);
      }},
-    {.name = "lookup", .flags = "--lookup", .value = "NAME", .group = kField,
-     .help = "Search for the volume of a point: grid (default), kdtree, or linear, which is slow; all find the "
-             "same one",
-     .is_expert = true, .commands = kPaths, .parse = parse_lookup,
-     .print = [](const Options& o) { return std::string(lookup_name(o.render.field.lookup)); }},
     {.name = "load-field", .flags = "--load-field", .value = "FILE", .group = kField,
      .help = "Continue with a field that was saved for this scene: it brings method, volumes, bins and learned "
              "radiance. Timings count this run only. 'inspect' then trains only if --spp or --time-limit is "

@@ -129,12 +129,10 @@ FieldShape make_field_shape(const HostScene& scene, const FieldSettings& setting
             .extent = bounds.diagonal(),
             .rate = settings.rate,
             .uniform_floor = settings.uniform_floor,
-            .lookup = settings.lookup,
             .representation = settings.representation,
             .corner = bounds.empty() ? Vec3f{0.0f} : bounds.low,
             .edge = edge > 0.0f && edge < kInfinity ? edge : 1.0f,
-            .most_nodes = affordable_nodes(settings, light_clusters),
-            .iterations = settings.iterations};
+            .most_nodes = affordable_nodes(settings, light_clusters)};
 }
 
 std::size_t volume_bytes(const HostVolumes& volumes) {

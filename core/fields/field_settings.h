@@ -22,11 +22,9 @@ struct FieldSettings {
     LearningSettings learning{};
     float uniform_floor = kUniformShare;
     int precompute_samples = 1;  ///< probes per cell and volume, a square number
-    Lookup lookup = Lookup::Grid;
     /// Volumes that refinement may add, as a share of those placed, in [0, 1]; or kRefineByRecords. See refine_placement().
     float refine_share = kRefineByRecords;
     Representation representation = Representation::Table;  ///< of methods that learn; probes fill tables
-    Iterations iterations = Iterations::Updates;            ///< of an SD-tree
 
     friend bool operator==(const FieldSettings&, const FieldSettings&) = default;
 };
@@ -34,8 +32,7 @@ struct FieldSettings {
 /// More volumes learn more slowly from the same paths; the tables of about a thousand fit the second-level cache.
 inline constexpr int kDefaultVolumes = 1000;
 
-/// Most bytes of one volume: placement, tree, grid and tables. Includes the grid for every lookup, so that the number
-/// of volumes does not depend on the lookup. `light_clusters`, here and below: of the scene's light tree.
+/// Most bytes of one volume: placement, tree, grid and tables. `light_clusters`, here and below: of the scene's light tree.
 std::size_t bytes_per_volume(int bins, std::size_t light_clusters = 0);
 
 /// Throws MemoryError if the volumes of the settings and what one method learns do not fit the memory that is left.

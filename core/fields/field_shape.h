@@ -32,12 +32,6 @@ constexpr bool has_target(Representation representation, LearningTarget target) 
            representation == Representation::Neural;
 }
 
-/// The training samples that an SD-tree is built from. Files store these numbers.
-enum class Iterations : std::uint32_t {
-    Updates,   ///< all so far, by the learning rate, at every update
-    Doubling,  ///< those of the last iteration alone, each as long as all before it together   [Mueller et al. 2017]
-};
-
 struct FieldShape {
     DirectionCells cells;
     std::uint32_t light_clusters = 0;  ///< of the scene's light tree; 0: no tree
@@ -45,13 +39,11 @@ struct FieldShape {
     float extent = 0.0f;               ///< diagonal of the scene's bounds
     LearningRate rate = LearningRate::Forgetful;
     float uniform_floor = kUniformShare;
-    Lookup lookup = Lookup::Grid;
     Representation representation = Representation::Table;
     // Of an SD-tree:
     Vec3f corner{0.0f};            ///< lowest corner of the cube that it divides
     float edge = 1.0f;             ///< of the cube, above 0
     std::uint32_t most_nodes = 1;  ///< of all quadtrees
-    Iterations iterations = Iterations::Updates;
 };
 
 }  // namespace pl

@@ -121,7 +121,7 @@ std::optional<std::string> damage_of(const HostLobes& lobes);
 template <template <class> class Array, template <class> class LobeArray>
 LobeField field_view(const FieldShape& shape, const VolumeStorage<Array>& volumes, LobeStorage<LobeArray>& lobes) {
     LobeField field;
-    static_cast<PlacementView&>(field) = placement_view(volumes, shape.lookup, shape.extent);
+    static_cast<PlacementView&>(field) = placement_view(volumes, shape.extent);
     field.cells = shape.cells;
     field.light_clusters = shape.light_clusters;
     field.radiance_unit = shape.radiance_unit;

@@ -6,7 +6,7 @@
 
 namespace pl {
 
-/// Arrays of VolumeGridView; empty for the other lookups.
+/// Arrays of VolumeGridView; empty if positions are out of range: then all points are searched in the tree.
 template <template <class> class Array>
 struct VolumeGridStorage {
     Array<VolumePlace> sides;
@@ -59,8 +59,8 @@ VolumeGridView grid_view(const VolumeGridStorage<Array>& grid) {
 }
 
 template <template <class> class Array>
-PlacementView placement_view(const VolumeStorage<Array>& volumes, Lookup lookup, float extent) {
-    return {.tree = {.nodes = view_of(volumes.kd_nodes), .lookup = lookup},
+PlacementView placement_view(const VolumeStorage<Array>& volumes, float extent) {
+    return {.tree = {.nodes = view_of(volumes.kd_nodes)},
             .grid = grid_view(volumes.grid),
             .normals = view_of(volumes.normals),
             .sites = view_of(volumes.sites),

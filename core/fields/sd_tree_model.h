@@ -111,7 +111,7 @@ std::optional<std::string> damage_of(const HostSdTree& tree);
 template <template <class> class Array, template <class> class TreeArray>
 SdTreeField field_view(const FieldShape& shape, const VolumeStorage<Array>& volumes, SdTreeStorage<TreeArray>& tree) {
     SdTreeField field;
-    static_cast<PlacementView&>(field) = placement_view(volumes, shape.lookup, shape.extent);
+    static_cast<PlacementView&>(field) = placement_view(volumes, shape.extent);
     field.cells = shape.cells;
     field.light_clusters = shape.light_clusters;
     field.radiance_unit = shape.radiance_unit;

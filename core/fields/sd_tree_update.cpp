@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <vector>
 
 #include "core/base/parallel_chunks.h"
@@ -28,8 +27,7 @@ using Quadtree = std::vector<QuadNode>;
 void absorb_leaf(const FieldShape& shape, HostSdTree& tree, std::uint32_t leaf, std::uint32_t first,
                  std::uint32_t end) {
     const std::uint32_t fresh = tree.pending_count[leaf];
-    const bool is_all_new = shape.iterations == Iterations::Doubling;
-    const std::uint32_t visits = is_all_new ? 0 : tree.visits[leaf];
+    const std::uint32_t visits = tree.visits[leaf];
     const float step = fresh > 0 ? learning_step(visits, fresh, shape.rate) : 0.0f;
     for (std::uint32_t node = end; node-- > first;)
         for (std::uint32_t slot = 4 * node; slot < 4 * node + 4; ++slot) {
@@ -164,14 +162,6 @@ std::vector<Quadtree> divide_directions(const HostSdTree& tree, const std::vecto
     }
 }
 
-/// Whether the iteration under way has fewer training samples than twice those of the last one.
-bool is_incomplete(const HostSdTree& tree) {
-    const auto sum = [](const LargeArray<std::uint32_t>& values) {
-        return std::accumulate(values.begin(), values.end(), std::uint64_t{0});
-    };
-    return sum(tree.pending_count) < 2 * sum(tree.visits);
-}
-
 void write_quadtree(const Quadtree& nodes, std::uint32_t first, HostSdTree& tree) {
     for (std::size_t i = 0; i < nodes.size(); ++i) {
         std::copy_n(nodes[i].energy, 4, &tree.energy[4 * (first + i)]);
@@ -220,7 +210,6 @@ void update_sd_tree(const FieldShape& shape, HostSdTree& tree, int threads) {
         for (std::uint32_t volume = range.begin; volume < range.end; ++volume)
             absorb_volume(shape, tree, lights, volume);
     });
-    if (shape.iterations == Iterations::Doubling && is_incomplete(tree)) return;
     const TableUpdateView mixture = mixture_view(tree);
     const auto old_leaves = static_cast<std::uint32_t>(tree.first_node.size());
     const auto old_nodes = static_cast<std::uint32_t>(tree.energy.size() / 4);

@@ -22,7 +22,7 @@ inline constexpr float kFewestInQuadrant = 60.0f;
 
 /// Absorbs all pending sums, splits leaves by their number of training samples, and divides or joins quadrants by their energy. A
 /// tree that would have more than shape.most_nodes nodes gets fewer leaves, and quadrants by a larger share. The same bits for
-/// any number of threads. With Iterations::Doubling the trees stay, and their sums wait, until an iteration is complete.
+/// any number of threads.
 void update_sd_tree(const FieldShape& shape, HostSdTree& tree, int threads);
 
 }  // namespace pl

@@ -148,7 +148,7 @@ template <template <class> class Array, template <class> class TableArray>
 TableField field_view(const FieldShape& shape, const VolumeStorage<Array>& volumes,
                       TableStorage<TableArray>& tables) {
     TableField field;
-    static_cast<PlacementView&>(field) = placement_view(volumes, shape.lookup, shape.extent);
+    static_cast<PlacementView&>(field) = placement_view(volumes, shape.extent);
     field.cells = shape.cells;
     field.light_clusters = shape.light_clusters;
     field.radiance_unit = shape.radiance_unit;

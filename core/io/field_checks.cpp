@@ -55,7 +55,7 @@ private:
         require(s.volumes >= 0, "volumes asked for", "0 or more", s.volumes);
         require(is_amount(s.budget_megabytes), "budget", "a number of megabytes", s.budget_megabytes);
         require(s.bins >= 4 && s.bins <= 1024 && is_square(s.bins), "bins", "a square number from 4 to 1024", s.bins);
-        require(s.rate >= LearningRate::SampleMean && s.rate <= LearningRate::Forgetful, "learning rate", "1 to 4",
+        require(s.rate == LearningRate::SampleMean || s.rate == LearningRate::Forgetful, "learning rate", "1 or 4",
                 static_cast<std::uint32_t>(s.rate));
         require(s.learning.target <= LearningTarget::MonteCarlo, "learning target", "0 to 2",
                 static_cast<std::uint32_t>(s.learning.target));
@@ -64,15 +64,12 @@ private:
         require(s.uniform_floor >= 0.0f && s.uniform_floor <= 1.0f, "uniform share", "0 to 1", s.uniform_floor);
         require(s.precompute_samples > 0 && is_square(s.precompute_samples), "precomputed samples",
                 "a square number above 0", s.precompute_samples);
-        require(s.lookup <= Lookup::Grid, "lookup", "0 to 2", static_cast<std::uint32_t>(s.lookup));
         require(s.representation <= kLastRepresentation, "representation",
                 fmt::format("0 to {}", static_cast<std::uint32_t>(kLastRepresentation)),
                 static_cast<std::uint32_t>(s.representation));
         require(has_target(s.representation, s.learning.target), "learning target",
                 "0, that of Expected Sarsa, unless directions are sampled from tables",
                 static_cast<std::uint32_t>(s.learning.target));
-        require(s.iterations <= Iterations::Doubling, "iterations", "0 or 1",
-                static_cast<std::uint32_t>(s.iterations));
         require((s.refine_share >= 0.0f && s.refine_share <= 1.0f) || s.refine_share == kRefineByRecords,
                 "share of added volumes", "0 to 1, or -1", s.refine_share);
     }
@@ -90,10 +87,10 @@ private:
         require(shape.light_clusters <= kMostLightClusters, "clusters of lights",
                 fmt::format("at most {}", kMostLightClusters), shape.light_clusters);
         require(is_amount(shape.extent), "extent", "0 or more", shape.extent);
-        require(shape.rate == s.rate && shape.uniform_floor == s.uniform_floor && shape.lookup == s.lookup,
-                "learning rate, uniform share and lookup of the tables", "those of the settings", "others");
-        require(shape.representation == s.representation && shape.iterations == s.iterations,
-                "representation and iterations of the shape", "those of the settings", "others");
+        require(shape.rate == s.rate && shape.uniform_floor == s.uniform_floor,
+                "learning rate and uniform share of the tables", "those of the settings", "others");
+        require(shape.representation == s.representation, "representation of the shape", "that of the settings",
+                "another");
         require(is_finite(shape.corner), "corner of the cube", "a finite position", text_of(shape.corner));
         require(shape.edge > 0.0f && std::isfinite(shape.edge), "edge of the cube", "a length above 0", shape.edge);
         require(shape.most_nodes > 0 && shape.most_nodes <= kMostQuadNodes, "nodes of quadtrees",

@@ -10,7 +10,7 @@
 namespace pl {
 namespace {
 
-constexpr SealedKind kFieldKind{.magic = "PLFIELD\n", .version = 9, .title = "learned field", .word = "field"};
+constexpr SealedKind kFieldKind{.magic = "PLFIELD\n", .version = 10, .title = "learned field", .word = "field"};
 
 template <class Stream, class Field>
 void transfer_header(Stream& stream, Field& field) {

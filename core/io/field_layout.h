@@ -11,15 +11,15 @@ template <class Stream, class Settings>
 void transfer_settings(Stream& stream, Settings& settings) {
     const auto all = [&](auto&... values) { (transfer(stream, values), ...); };
     all(settings.volumes, settings.budget_megabytes, settings.bins, settings.rate, settings.learning.target,
-        settings.learning.light, settings.uniform_floor, settings.precompute_samples, settings.lookup,
-        settings.refine_share, settings.representation, settings.iterations);
+        settings.learning.light, settings.uniform_floor, settings.precompute_samples, settings.refine_share,
+        settings.representation);
 }
 
 template <class Stream, class Shape>
 void transfer_shape(Stream& stream, Shape& shape) {
     const auto all = [&](auto&... values) { (transfer(stream, values), ...); };
     all(shape.cells.side, shape.light_clusters, shape.radiance_unit, shape.extent, shape.rate, shape.uniform_floor,
-        shape.lookup, shape.representation, shape.corner, shape.edge, shape.most_nodes, shape.iterations);
+        shape.representation, shape.corner, shape.edge, shape.most_nodes);
 }
 
 template <class Stream, class Rounds>

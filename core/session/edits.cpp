@@ -15,7 +15,6 @@ struct Table {
     }
     // Volumes: cleared only if same_placement() is false, which depends on the scene and not on the edit.
     Invalidation operator()(const EditMaterial&) const { return {.films = true, .tables = true}; }
-    Invalidation operator()(const EditEffects&) const { return {}; }
     Invalidation operator()(const EditBackend& edit) const { return {.tables = edit.abandon_old}; }
     Invalidation operator()(const EditRestart&) const { return {.films = true}; }
     Invalidation operator()(const EditForget&) const { return {.films = true, .tables = true}; }

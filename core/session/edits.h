@@ -42,10 +42,6 @@ struct EditMaterial {
     std::uint32_t index;
     MaterialDescription material;
 };
-/// Effects that kernels have to cover, needed or not. Changes no picture.
-struct EditEffects {
-    FeatureSet forced;
-};
 /// Another back end continues with the learned fields. The films of the old one are parked with it, for its return.
 struct EditBackend {
     std::shared_ptr<RenderBackend> backend;
@@ -77,7 +73,7 @@ struct EditForgetVolume {
 
 using SessionEdit =
     std::variant<EditCamera, EditSize, EditSeed, EditEstimator, EditMixture, EditField, EditScene, EditMaterial,
-                 EditEffects, EditBackend, EditRestart, EditForget, EditLearned, EditLearning, EditForgetVolume>;
+                 EditBackend, EditRestart, EditForget, EditLearned, EditLearning, EditForgetVolume>;
 
 /// The parts of a session that an edit clears. Display settings clear nothing: they are no part of a session.
 struct Invalidation {

@@ -15,11 +15,6 @@ void require_learned_in(const SceneDescription& scene, const LearnedField& field
                                 field.scene_hash));
 }
 
-void fit_to_run(LearnedField& field, const FieldSettings& settings) {
-    field.settings.lookup = settings.lookup;
-    field.shape.lookup = settings.lookup;
-}
-
 std::string summary_of(const LearnedField& field) {
     const auto text = [&](const std::string& directions) {
         return fmt::format("{}, {} volumes, {}, {} passes, {} records", info_of(field.method).name,

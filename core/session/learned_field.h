@@ -60,9 +60,6 @@ inline Representation representation_of(const FieldSettings& settings, MethodId 
 /// Throws Error(Input) if the field was learned in another scene.
 void require_learned_in(const SceneDescription& scene, const LearnedField& field);
 
-/// Adapts a field of a file, which holds no times, to this run: the lookup is that of `settings`.
-void fit_to_run(LearnedField& field, const FieldSettings& settings);
-
 /// "reinforcement, 1000 volumes, 256 directions, 12 passes, 34567 records"; of an SD-tree its leaves and nodes in place of directions.
 std::string summary_of(const LearnedField& field);
 

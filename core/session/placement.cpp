@@ -6,11 +6,9 @@
 namespace pl {
 namespace {
 
-/// The volumes with the grid if the lookup uses one; all have the tree.
-std::shared_ptr<const HostVolumes> with_lookup(const RenderBackend& backend, const HostScene& scene,
-                                               HostVolumes volumes, Lookup lookup) {
-    volumes.grid = {};
-    if (lookup == Lookup::Grid) volumes.grid = build_volume_grid(scene, volumes, backend.info().free_threads());
+std::shared_ptr<const HostVolumes> with_grid(const RenderBackend& backend, const HostScene& scene,
+                                             HostVolumes volumes) {
+    volumes.grid = build_volume_grid(scene, volumes, backend.info().free_threads());
     return std::make_shared<const HostVolumes>(std::move(volumes));
 }
 
@@ -23,14 +21,14 @@ void Placement::ensure(RenderBackend& backend, const HostScene& scene, const Fie
     shape_ = make_field_shape(scene, settings);
     const int threads = backend.info().free_threads();
     HostVolumes placed = place_volumes({scene, surfaces(scene, threads), settings, &camera, threads});
-    volumes_ = with_lookup(backend, scene, std::move(placed), shape_.lookup);
+    volumes_ = with_grid(backend, scene, std::move(placed));
     backend.upload_volumes(volumes_, shape_);
     seconds_ = watch.seconds();
 }
 
 void Placement::adopt(RenderBackend& backend, const HostScene& scene, HostVolumes volumes, const FieldShape& shape,
                       const Refinement& refinement) {
-    const std::shared_ptr<const HostVolumes> adopted = with_lookup(backend, scene, std::move(volumes), shape.lookup);
+    const std::shared_ptr<const HostVolumes> adopted = with_grid(backend, scene, std::move(volumes));
     backend.upload_volumes(adopted, shape);
     volumes_ = adopted;
     shape_ = shape;
@@ -38,7 +36,7 @@ void Placement::adopt(RenderBackend& backend, const HostScene& scene, HostVolume
 }
 
 void Placement::refine(const RenderBackend& backend, const HostScene& scene, RefinedPlacement refined) {
-    volumes_ = with_lookup(backend, scene, std::move(refined.volumes), shape_.lookup);
+    volumes_ = with_grid(backend, scene, std::move(refined.volumes));
     refinement_.added += static_cast<std::uint32_t>(refined.parents.size());
 }
 

@@ -26,7 +26,6 @@ struct Assign {
     void operator()(const EditField& edit) const { settings.field = edit.field; }
     void operator()(const EditScene& edit) const { settings.camera = edit.scene->camera; }
     void operator()(const EditMaterial&) const {}
-    void operator()(const EditEffects& edit) const { settings.forced_effects = edit.forced; }
     void operator()(const EditBackend&) const {}
     void operator()(const EditRestart&) const {}
     void operator()(const EditForget&) const {}

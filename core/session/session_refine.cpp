@@ -26,7 +26,7 @@ void Session::split_volumes(MethodId method, std::size_t most) {
     const HostScene& scene = *scene_.packed();
     RefinedPlacement refined =
         refine_placement({scene, placement_.surfaces(scene, threads), settings_.field, &camera, threads},
-                         placement_view(volumes, shape.lookup, shape.extent), split);
+                         placement_view(volumes, shape.extent), split);
     if (!refined.parents.empty()) replace_volumes(method, std::move(refined), std::move(learned));
 }
 

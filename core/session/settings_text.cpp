@@ -47,10 +47,8 @@ std::vector<std::pair<std::string, std::string>> settings_text(const RenderSetti
     add("learned light", settings.field.learning.light);
     add("uniform floor", settings.field.uniform_floor);
     add("precomputed samples", settings.field.precompute_samples);
-    add("lookup", settings.field.lookup);
     add("refinement", settings.field.refine_share);
     add("field", settings.field.representation);
-    add("iterations", settings.field.iterations);
     add("passes that learn", settings.learn_passes);
     return text;
 }

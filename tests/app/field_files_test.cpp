@@ -1,4 +1,4 @@
-// --save-field, --load-field and --lookup from a shell.
+// --save-field and --load-field from a shell.
 #include <csignal>
 
 #include <nlohmann/json.hpp>
@@ -76,7 +76,7 @@ TEST_CASE("a run that loads a field goes on from it") {
     }
 }
 
-TEST_CASE("field files have the same bits for any number of threads and any lookup") {
+TEST_CASE("field files have the same bits for any number of threads") {
     const TempDir folder;
     for (const std::string& method : kMethods) {
         const auto saved = [&](const Arguments& more) {
@@ -89,41 +89,26 @@ TEST_CASE("field files have the same bits for any number of threads and any look
         const std::string field = read_all(folder / "f");
         CHECK(saved({"-t", "2"}) == picture);
         CHECK(read_all(folder / "f") == field);
-        CHECK(saved({"--lookup", "linear"}) == picture);
-        CHECK(saved({"--lookup", "kdtree"}) == picture);
 
-        // After loading, every lookup continues with the same bits, for any lookup stored in the file.
         const auto loaded = [&](const Arguments& more) {
             run_well(render(folder / "y.pfm", joined({"--load-field", folder / "f"}, more)));
             return read_all(folder / "y.pfm");
         };
         const std::string next = loaded({});
-        CHECK(loaded({"--lookup", "kdtree"}) == next);
-        CHECK(loaded({"--lookup", "grid"}) == next);
-        CHECK(loaded({"--lookup", "linear", "-t", "1"}) == next);
-    }
-    for (const std::string view : {"voronoi", "radiance-map"}) {
-        const Arguments arguments =
-            joined(render(folder / "v.pfm", {"--method", "reinforcement", "--view", view}), kSmall);
-        run_well(arguments);
-        const std::string picture = read_all(folder / "v.pfm");
-        for (const std::string lookup : {"linear", "kdtree"}) {
-            run_well(joined(arguments, {"--lookup", lookup}));
-            CHECK(read_all(folder / "v.pfm") == picture);
-        }
+        CHECK(loaded({"-t", "1"}) == next);
     }
 }
 
 TEST_CASE("the command in a picture loads the field again") {
     const TempDir folder;
     run_well(joined(render(folder / "a.png", {"--method", "reinforcement", "--save-field", folder / "f"}), kSmall));
-    run_well(render(folder / "b.png", {"--load-field", folder / "f", "--lookup", "linear"}));
+    run_well(render(folder / "b.png", {"--load-field", folder / "f"}));
     ImageMetadata metadata;
     const std::vector<std::uint8_t> pixels = read_png8(folder / "b.png", &metadata).rgb;
     const auto command =
         std::find_if(metadata.begin(), metadata.end(), [](const auto& entry) { return entry.first == "command"; });
     REQUIRE(command != metadata.end());
-    CHECK_THAT(command->second, contains("--load-field") && contains("--lookup linear"));
+    CHECK_THAT(command->second, contains("--load-field"));
     std::filesystem::remove(folder / "b.png");
     REQUIRE(run_shell(command->second).code == 0);
     CHECK((read_png8(folder / "b.png").rgb == pixels));

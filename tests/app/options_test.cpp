@@ -62,9 +62,8 @@ Options any_options(std::mt19937& random) {
     o.render.field.bins *= o.render.field.bins;
     o.render.field.precompute_samples = whole(1, 32);
     o.render.field.precompute_samples *= o.render.field.precompute_samples;
-    o.render.field.lookup = static_cast<Lookup>(whole(0, 2));
     if (random() % 2 == 0) o.render.field.refine_share = real(0.0f, 1.0f);
-    o.render.field.rate = static_cast<LearningRate>(whole(1, 4));
+    o.render.field.rate = whole(0, 1) == 1 ? LearningRate::Forgetful : LearningRate::SampleMean;
     o.render.field.learning = {static_cast<LearningTarget>(whole(0, 2)), static_cast<LearnedLight>(whole(0, 1))};
     o.render.roulette = static_cast<RouletteRule>(whole(0, 2));
     o.render.guiding = static_cast<GuidingRule>(whole(0, 1));

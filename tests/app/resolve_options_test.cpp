@@ -92,11 +92,10 @@ TEST_CASE("wrong values name the option, the expected and the given value") {
         {{"--refine", "nan"}, "--refine: expected"},
         {{"--refine", "half"}, "--refine: expected"},
         {{"--learning-rate", "means"},
-         "--learning-rate: expected mean, forgetful, power or floor, got 'means', did you mean 'mean'?"},
+         "--learning-rate: expected mean or forgetful, got 'means', did you mean 'mean'?"},
+        {{"--learning-rate", "power"}, "--learning-rate: expected mean or forgetful, got 'power'"},
         {{"--field", "sdtree"},
          "--field: expected table, sd-tree, lobes, neural or neural-vertex, got 'sdtree', did you mean 'sd-tree'?"},
-        {{"--iterations", "twice"}, "--iterations: expected updates or doubling, got 'twice'"},
-        {{"--iterations", "doubling"}, "--iterations doubling: expected --field sd-tree with it, got --field table"},
         {{"--field", "sd-tree", "--learn-target", "sarsa"},
          "--learn-target sarsa: expected --field table or neural with it, got --field sd-tree"},
         {{"--field", "neural-vertex", "--learn-target", "monte-carlo"},
@@ -107,8 +106,6 @@ TEST_CASE("wrong values name the option, the expected and the given value") {
          "--field lobes: expected --field table with --method precomputed, whose probes fill tables"},
         {{"--field", "neural", "--method", "precomputed"},
          "--field neural: expected --field table with --method precomputed, whose probes fill tables"},
-        {{"--field", "lobes", "--iterations", "doubling"},
-         "--iterations doubling: expected --field sd-tree with it, got --field lobes"},
         {{"--learn-target", "montecarlo"},
          "--learn-target: expected expected-sarsa, sarsa or monte-carlo, got 'montecarlo', did you mean "
          "'monte-carlo'?"},
@@ -116,7 +113,6 @@ TEST_CASE("wrong values name the option, the expected and the given value") {
          "--learn-from: expected all or indirect, got 'direct', did you mean 'indirect'?"},
         {{"--roulette", "feild"},
          "--roulette: expected spare, albedo, field or off, got 'feild', did you mean 'field'?"},
-        {{"--lookup", "kd-tree"}, "--lookup: expected kdtree, linear or grid, got 'kd-tree', did you mean 'kdtree'?"},
         {{"--seed", "-1"}, "--seed: expected a whole number of at least 0"},
         {{"--seed", "18446744073709551616"}, "--seed: expected"},
     };
@@ -282,7 +278,7 @@ std::string complaint_with_field(const std::vector<std::string>& words, const Le
 TEST_CASE("a loaded field brings its method and settings") {
     LearnedField field;
     field.method = MethodId::Precomputed;
-    field.settings = {.volumes = 70, .bins = 64, .lookup = Lookup::Linear};
+    field.settings = {.volumes = 70, .bins = 64};
     SceneDescription scene = plain_scene();
     scene.settings = {{"method", "reinforcement"}, {"volumes", "5"}, {"bins", "16"}, {"seed", "9"}};
     const Options options = parse_with_field(loading({}), field, scene);
@@ -297,7 +293,7 @@ TEST_CASE("a loaded field brings its method and settings") {
     CHECK_THAT(command, contains("--load-field my.field") && contains("--bins 64") && contains("--volumes 70"));
 }
 
-TEST_CASE("options beside a loaded field have to agree with it, but for the lookup") {
+TEST_CASE("options beside a loaded field have to agree with it") {
     LearnedField field;
     field.method = MethodId::Precomputed;
     field.settings.bins = 64;
@@ -321,10 +317,6 @@ TEST_CASE("options beside a loaded field have to agree with it, but for the look
         CAPTURE(wrong.words);
         CHECK_THAT(complaint_with_field(wrong.words, field), contains(wrong.message));
     }
-    CHECK(parse_with_field(loading({}), field).render.field.lookup == Lookup::Grid);
-    CHECK(parse_with_field(loading({"--lookup", "linear"}), field).render.field.lookup == Lookup::Linear);
-    field.settings.lookup = Lookup::Linear;
-    CHECK(parse_with_field(loading({"--lookup", "kdtree"}), field).render.field.lookup == Lookup::KdTree);
 }
 
 TEST_CASE("inspection is about a method that learns") {

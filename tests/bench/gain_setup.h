@@ -22,7 +22,7 @@ struct GainSetup {
         {"rate", 4},         {"precompute", 0}, {"megabytes", 16.0},
         {"target", 0},       {"light", 1},      {"roulette", 0},
         {"guiding", 0},      {"uniform", 0},    {"refine", kRefineByRecords},
-        {"field", 0},        {"iterations", 0},
+        {"field", 0},
     };
     /// Keys with words: folders and a file.
     std::map<std::string, std::string> words{

@@ -19,6 +19,7 @@
 #include "core/scene/pack_scene.h"
 #include "tests/bench/machine_load.h"
 #include "tests/bench/quartiles.h"
+#include "tests/support/field/linear_search.h"
 
 namespace pl::bench {
 namespace {
@@ -50,15 +51,13 @@ struct Timing {
     std::uint64_t checksum = 0;
 };
 
-/// One lookup per point; `stride` leaves points out, for searches that would take minutes.
-Timing time_lookups(const HostVolumes& volumes, Lookup lookup, const std::vector<SurfacePoint>& points,
-                    std::size_t stride) {
-    const KdTreeView tree{view_of(volumes.kd_nodes), lookup};
-    const VolumeGridView grid = grid_view(volumes.grid);
+/// One lookup per point by `find`; `stride` leaves points out, for searches that would take minutes.
+template <class Find>
+Timing time_lookups(const std::vector<SurfacePoint>& points, std::size_t stride, const Find& find) {
     Timing timing;
     const Stopwatch watch;
     for (std::size_t i = 0; i < points.size(); i += stride)
-        timing.checksum += static_cast<std::uint64_t>(find_volume(tree, grid, points[i]).volume) * (i + 1);
+        timing.checksum += static_cast<std::uint64_t>(find(points[i])) * (i + 1);
     timing.ns = 1e9 * watch.seconds() / static_cast<double>((points.size() + stride - 1) / stride);
     return timing;
 }
@@ -102,15 +101,23 @@ bool measure(const HostScene& scene, const std::vector<SurfacePoint>& points, in
                 static_cast<double>(bytes) / static_cast<double>(volumes_size), volumes.grid.grids.size());
     describe(volumes, points);
     const std::size_t stride = 1 + volumes_size / 100;
-    bool same = time_lookups(volumes, Lookup::Linear, points, stride).checksum ==
-                time_lookups(volumes, Lookup::Grid, points, stride).checksum;
+    const KdTreeView nodes{view_of(std::as_const(volumes.kd_nodes))};
+    const VolumeGridView sides = grid_view(volumes.grid);
+    const auto by_grid = [&](const SurfacePoint& point) { return find_volume(nodes, sides, point).volume; };
+    const auto by_tree = [&](const SurfacePoint& point) {
+        return find_volume(nodes, point.position, point.geometric_normal);
+    };
+    const auto by_all = [&](const SurfacePoint& point) {
+        return test::find_volume_by_all(nodes.nodes, point.position, point.geometric_normal);
+    };
+    bool same = time_lookups(points, stride, by_all).checksum == time_lookups(points, stride, by_grid).checksum;
     for (int i = 0; i < rounds; ++i) {
-        const Timing grid = time_lookups(volumes, Lookup::Grid, points, 1);
-        const Timing tree = time_lookups(volumes, Lookup::KdTree, points, 1);
+        const Timing grid = time_lookups(points, 1, by_grid);
+        const Timing tree = time_lookups(points, 1, by_tree);
         same = same && grid.checksum == tree.checksum;
         grid_ns.push_back(grid.ns);
         tree_ns.push_back(tree.ns);
-        linear_ns.push_back(time_lookups(volumes, Lookup::Linear, points, stride).ns);
+        linear_ns.push_back(time_lookups(points, stride, by_all).ns);
         ratio.push_back(tree.ns / grid.ns);
     }
     std::printf("  ns per lookup: grid %.1f, tree %.1f, linear %.1f; tree / grid %.2f [%.2f, %.2f]; %s\n",

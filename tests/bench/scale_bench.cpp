@@ -51,11 +51,7 @@ class Race {
 public:
     Race(const SceneDescription& description, std::shared_ptr<const HostScene> scene, EmbreeLoop& loop, int threads)
         : camera_(make_camera(description.camera, kSide, kSide)), scene_(std::move(scene)), loop_(loop) {
-        const auto add = [&](const char* name, IntersectorChoice choice) {
-            tracers_.push_back({name, make_cpu_backend({.threads = threads, .intersector = choice})});
-        };
-        add("back end, wide hierarchy", IntersectorChoice::Wide);
-        add("back end, two-wide hierarchy", IntersectorChoice::Bvh);
+        tracers_.push_back({"back end, wide hierarchy", make_cpu_backend({.threads = threads})});
         tracers_.push_back({"loop over Embree's single rays", nullptr});
         for (const Tracer& tracer : tracers_) {
             if (!tracer.backend) continue;

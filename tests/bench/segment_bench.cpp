@@ -1,7 +1,6 @@
 // The cost of a segment of a guided path, compared with one of default path tracing.
-// Usage: segment_bench [SCENE [VOLUMES [ROUNDS [THREADS [TRACER [LIGHT [METHOD]]]]]]]; scenes as in bench_scenes.h, the
-// tracer is auto, dense, wide or bvh, LIGHT is off, on or both: without and with light samples. Processor time, of one
-// thread unless told otherwise. The methods take turns, one pass each, so that other work on the machine meets all of them; a
+// Usage: segment_bench [SCENE [VOLUMES [ROUNDS [THREADS [LIGHT [METHOD]]]]]]; scenes as in bench_scenes.h, LIGHT is off, on
+// or both: without and with light samples. Processor time, of one thread unless told otherwise. The methods take turns, one pass each, so that other work on the machine meets all of them; a
 // ratio is to `default` with the same light samples. A checksum tells whether two builds make the same pictures.
 #include <algorithm>
 #include <bit>
@@ -83,14 +82,6 @@ private:
     Snapshot last_;
 };
 
-IntersectorChoice tracer_of(const std::string& name) {
-    if (name == "auto") return IntersectorChoice::Auto;
-    if (name == "dense") return IntersectorChoice::Dense;
-    if (name == "wide") return IntersectorChoice::Wide;
-    if (name == "bvh") return IntersectorChoice::Bvh;
-    throw Error(ErrorKind::Usage, "tracer: expected auto, dense, wide or bvh, got " + name);
-}
-
 /// Without and with light samples.
 std::vector<bool> light_samples_of(const std::string& name) {
     if (name == "both") return {false, true};
@@ -141,15 +132,13 @@ int main(int count, char** arguments) try {
     const int volumes = count > 2 ? std::atoi(arguments[2]) : 0;
     const int rounds = count > 3 ? std::max(1, std::atoi(arguments[3])) : 15;
     const int threads = count > 4 ? std::max(1, std::atoi(arguments[4])) : 1;
-    const std::string tracer = word(5, "auto");
-    const std::vector<bool> light_samples = pl::bench::light_samples_of(word(6, "both"));
-    const std::vector<pl::MethodInfo> methods = pl::bench::methods_of(word(7, "all"));
-    const pl::CpuSettings cpu{.threads = threads, .intersector = pl::bench::tracer_of(tracer)};
+    const std::vector<bool> light_samples = pl::bench::light_samples_of(word(5, "both"));
+    const std::vector<pl::MethodInfo> methods = pl::bench::methods_of(word(6, "all"));
+    const pl::CpuSettings cpu{.threads = threads};
     const pl::bench::MachineLoad load;
-    std::printf(
-        "%s, %d volumes (0: the default), %d threads, tracer %s: ns per segment, as a multiple of `default` with "
-        "the same light samples, and for learning\n",
-        scene.c_str(), volumes, threads, tracer.c_str());
+    std::printf("%s, %d volumes (0: the default), %d threads: ns per segment, as a multiple of `default` with "
+                "the same light samples, and for learning\n",
+                scene.c_str(), volumes, threads);
     std::printf("%-14s %-5s %8s %8s %8s %13s %8s   picture\n", "method", "light", "median", "least", "ratio",
                 "[quartiles]", "learning");
     const auto description = std::make_shared<const pl::SceneDescription>(pl::bench::open_bench_scene(scene));

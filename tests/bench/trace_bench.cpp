@@ -56,9 +56,9 @@ public:
         settings_.next_event = next_event ? 1 : 0;
         if (next_event) features_ = features_.with(Feature::NextEventEstimation);
         HostVolumes volumes = place_volumes(*scene_, {});
+        prepare(*tree_backend_, volumes);  // without grids all volumes are searched in the tree
         volumes.grid = build_volume_grid(*scene_, volumes, threads);
-        prepare(*backend_, volumes, Lookup::Grid);
-        prepare(*tree_backend_, volumes, Lookup::KdTree);
+        prepare(*backend_, volumes);
     }
 
     std::string intersector() const { return backend_->info().intersector; }
@@ -79,8 +79,8 @@ public:
     double mean_of_peer() const { return peer_.mean(); }
 
 private:
-    void prepare(RenderBackend& backend, const HostVolumes& volumes, Lookup lookup) {
-        const FieldShape shape = make_field_shape(*scene_, {.lookup = lookup});
+    void prepare(RenderBackend& backend, const HostVolumes& volumes) {
+        const FieldShape shape = make_field_shape(*scene_, {});
         backend.upload_scene(scene_);
         backend.upload_volumes(std::make_shared<const HostVolumes>(volumes), shape);
         backend.upload_field(MethodId::Reinforcement, make_tables(shape, volumes.normals.size()));

@@ -125,13 +125,9 @@ Outcome batches(const Room& room, MethodId method, const Effects& effects, const
 }
 
 constexpr CpuSettings kSettings[] = {
-    {.threads = 1, .intersector = IntersectorChoice::Dense, .batch_paths = 1024},
-    {.threads = 2, .intersector = IntersectorChoice::Dense, .batch_paths = 1024},
-    {.threads = 7, .intersector = IntersectorChoice::Dense, .batch_paths = 1024},
-    {.threads = 1, .intersector = IntersectorChoice::Dense, .batch_paths = 1},
-    {.threads = 2, .intersector = IntersectorChoice::Dense, .batch_paths = 16},
-    {.threads = 7, .intersector = IntersectorChoice::Dense, .batch_paths = 1000},
-    {.threads = 2, .intersector = IntersectorChoice::Bvh, .batch_paths = 100},
+    {.threads = 1, .batch_paths = 1024}, {.threads = 2, .batch_paths = 1024}, {.threads = 7, .batch_paths = 1024},
+    {.threads = 1, .batch_paths = 1},    {.threads = 2, .batch_paths = 16},   {.threads = 7, .batch_paths = 1000},
+    {.threads = 2, .batch_paths = 100},
 };
 
 void check_batches(const Outcome& expected, const Room& room, MethodId method, const Effects& effects) {
@@ -140,8 +136,7 @@ void check_batches(const Outcome& expected, const Room& room, MethodId method, c
     REQUIRE((expected.counters.path.method.records > 0) == (method == MethodId::Reinforcement));
     for (const CpuSettings& settings : kSettings) {
         INFO("effects " << effects.set.bits << ", next event " << effects.next_event << ", batch "
-                        << settings.batch_paths << ", threads " << settings.threads << ", intersector "
-                        << static_cast<int>(settings.intersector));
+                        << settings.batch_paths << ", threads " << settings.threads);
         CHECK(same(expected, batches(room, method, effects, settings)));
     }
 }

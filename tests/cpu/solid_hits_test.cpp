@@ -3,7 +3,7 @@
 
 #include "core/scene/pack_scene.h"
 #include "cpu/batch_tracer.h"
-#include "cpu/cpu_backend.h"
+#include "tests/cpu/bvh_batch.h"
 #include "tests/cpu/random_rays.h"
 #include "tests/support/catch.hpp"
 #include "tests/support/scenes/image_scenes.h"
@@ -25,39 +25,42 @@ HostScene sheets() {
     return pack_scene(scene);
 }
 
+template <BatchIntersector I>
+void check_holes(const SceneView& scene, const I& intersector) {
+    const BvhIntersector single{scene};
+    const std::vector<Ray> rays = random_rays(scene, 20000, 1);
+    const auto count = static_cast<std::uint32_t>(rays.size());
+    SolidHits<kEveryFeature, I> solid(scene, intersector, count);
+    RayBatch batch(count);
+    for (std::uint32_t i = 0; i < count; ++i) batch.set_ray(i, rays[i]);
+    solid.find_closest(batch, count);
+    int through = 0;
+    int partly = 0;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const Hit expected = closest_solid_hit<kEveryFeature>(scene, single, rays[i]);
+        REQUIRE(same_bits(batch.hit(i), expected));
+        REQUIRE(is_blocked<kEveryFeature>(scene, single, rays[i]) == expected.found());
+        if (expected.found()) {
+            const float opacity = opacity_at<kEveryFeature>(scene, expected.primitive, hit_weights(expected));
+            REQUIRE(opacity > 0.0f);
+            partly += opacity < 1.0f ? 1 : 0;
+        }
+        through += same_bits(expected, single.closest_hit(rays[i])) ? 0 : 1;
+    }
+    CHECK(through > 1000);
+    CHECK(partly > 1000);
+}
+
 }  // namespace
 
 TEST_CASE("Batches of rays through holes have the bits of single rays, by every intersector") {
     const HostScene packed = sheets();
     const SceneView scene = packed.view();
     REQUIRE_FALSE(scene.opacities.empty());
-    const BvhIntersector single{scene};
-    const std::vector<Ray> rays = random_rays(scene, 20000, 1);
-    const auto count = static_cast<std::uint32_t>(rays.size());
-    for (const IntersectorChoice choice :
-         {IntersectorChoice::Bvh, IntersectorChoice::Dense, IntersectorChoice::Wide}) {
-        const BatchTracer tracer(scene, choice);
-        INFO(tracer.name());
-        SolidHits<kEveryFeature, BatchTracer> solid(scene, tracer, count);
-        RayBatch batch(count);
-        for (std::uint32_t i = 0; i < count; ++i) batch.set_ray(i, rays[i]);
-        solid.find_closest(batch, count);
-        int through = 0;
-        int partly = 0;
-        for (std::uint32_t i = 0; i < count; ++i) {
-            const Hit expected = closest_solid_hit<kEveryFeature>(scene, single, rays[i]);
-            REQUIRE(same_bits(batch.hit(i), expected));
-            REQUIRE(is_blocked<kEveryFeature>(scene, single, rays[i]) == expected.found());
-            if (expected.found()) {
-                const float opacity = opacity_at<kEveryFeature>(scene, expected.primitive, hit_weights(expected));
-                REQUIRE(opacity > 0.0f);
-                partly += opacity < 1.0f ? 1 : 0;
-            }
-            through += same_bits(expected, single.closest_hit(rays[i])) ? 0 : 1;
-        }
-        CHECK(through > 1000);
-        CHECK(partly > 1000);
-    }
+    check_holes(scene, BvhBatch(scene));
+    check_holes(scene, DenseIntersector(scene));
+    check_holes(scene, WideIntersector(scene));
+    check_holes(scene, BatchTracer(scene));
 }
 
 TEST_CASE("A set without cut-outs finds no more than the closest hits") {

@@ -9,8 +9,7 @@ using namespace pl::test;
 
 namespace {
 
-constexpr LearningRate kRates[] = {LearningRate::SampleMean, LearningRate::Power, LearningRate::Floor,
-                                   LearningRate::Forgetful};
+constexpr LearningRate kRates[] = {LearningRate::SampleMean, LearningRate::Forgetful};
 constexpr std::uint32_t kVolumes = 9;
 
 void update_in_lanes(const LaneKernels& kernels, TestField& field, bool skips) {

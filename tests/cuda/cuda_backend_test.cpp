@@ -211,17 +211,6 @@ TEST_CASE("A frame is that of its moment, however long it is on its way, and out
     CHECK(shim::live_objects() == 0);
 }
 
-TEST_CASE("All searches for volumes give the same bits") {
-    shim::reset();
-    const SceneDescription scene = shipped_scene("door");
-    RenderSettings settings = small_settings(scene, {MethodId::Reinforcement, false});
-    const State grid = render(make_cuda_session(scene, settings));
-    for (const Lookup lookup : {Lookup::KdTree, Lookup::Linear}) {
-        settings.field.lookup = lookup;
-        CHECK(same_state(render(make_cuda_session(scene, settings)), grid));
-    }
-}
-
 TEST_CASE("Launches of any size, stopped and resumed, give the same bits") {
     shim::reset();
     const SceneDescription scene = shipped_scene("cornell");

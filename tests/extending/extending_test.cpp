@@ -21,7 +21,7 @@ constexpr int kBatches = 64;
 template <Method M>
 void add_batch(Picture& picture, const Room& room, const M& method, std::uint64_t seed, std::uint32_t passes,
                std::uint32_t first) {
-    const BatchTracer tracer(room.scene->view(), IntersectorChoice::Dense);
+    const BatchTracer tracer(room.scene->view());
     const Camera camera = make_camera(small_room().camera, kSide, kSide);
     HostArray<FilmPixel> pixels(kSide * kSide);
     const FilmView film{view_of(pixels), kSide, kSide};
@@ -59,7 +59,7 @@ TEST_CASE("Extending: a method in one header agrees with default path tracing", 
 
 TEST_CASE("Extending: a representation in one header learns, and agrees with default path tracing", "[statistical]") {
     const Room room;
-    const PlacementView placement = placement_view(*room.volumes, room.shape.lookup, room.shape.extent);
+    const PlacementView placement = placement_view(*room.volumes, room.shape.extent);
     CosineLobes lobes(placement);
     Guided<CosineLobeField, ExpectedSarsa> method;
     method.field = lobes.view(placement);
@@ -84,9 +84,9 @@ TEST_CASE("Extending: a representation in one header learns, and agrees with def
 
 TEST_CASE("Extending: a representation keeps the light of light samples apart") {
     const Room room;
-    CosineLobes lobes(placement_view(*room.volumes, room.shape.lookup, room.shape.extent));
+    CosineLobes lobes(placement_view(*room.volumes, room.shape.extent));
     Guided<CosineLobeField, ExpectedSarsa> method;
-    method.field = lobes.view(placement_view(*room.volumes, room.shape.lookup, room.shape.extent));
+    method.field = lobes.view(placement_view(*room.volumes, room.shape.extent));
     method.mixture.learned = 0;
     Picture picture(kSide, kSide);
     add_batch(picture, room, method, 1, 16, 0);

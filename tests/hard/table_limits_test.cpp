@@ -115,8 +115,7 @@ TEST_CASE("The smallest and the largest fields go together with every rate", "[h
     const SceneDescription scene = furnace_scene(0.5f, 0.5f);
     for (const int volumes : {1, 2, 5000})
         for (const int bins : {4, 1024})
-            for (const LearningRate rate :
-                 {LearningRate::SampleMean, LearningRate::Power, LearningRate::Floor, LearningRate::Forgetful}) {
+            for (const LearningRate rate : {LearningRate::SampleMean, LearningRate::Forgetful}) {
                 RenderSettings settings = settings_for(scene, kEstimators[4], 16, 16);
                 settings.field.volumes = volumes;
                 settings.field.bins = bins;

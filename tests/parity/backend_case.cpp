@@ -43,11 +43,11 @@ std::string BackendCase::label() const {
         settings.forced_effects.bits);
     if (info_of(settings.method).uses_field)
         words += fmt::format(
-            " field={} target={} light={} rate={} volumes={} bins={} lookup={} precompute={} refine={} mixture={}:{}",
+            " field={} target={} light={} rate={} volumes={} bins={} precompute={} refine={} mixture={}:{}",
             static_cast<std::uint32_t>(field.representation), name_of(field.learning.target),
             static_cast<std::uint32_t>(field.learning.light), static_cast<std::uint32_t>(field.rate), field.volumes,
-            field.bins, static_cast<std::uint32_t>(field.lookup), field.precompute_samples, field.refine_share,
-            settings.mixture.learned, settings.mixture.bsdf_fraction);
+            field.bins, field.precompute_samples, field.refine_share, settings.mixture.learned,
+            settings.mixture.bsdf_fraction);
     return words;
 }
 

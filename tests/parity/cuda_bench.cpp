@@ -25,7 +25,6 @@ struct Options {
     std::vector<std::string> also;
     std::string fields_size;
     std::size_t ball_rows = 0;
-    int volumes = 20000;
 };
 
 struct Size {
@@ -118,18 +117,6 @@ void measure_methods(const std::shared_ptr<const SceneDescription>& scene, const
                     seconds);
 }
 
-void measure_lookups(const std::shared_ptr<const SceneDescription>& scene, Size size, const Options& options) {
-    Row row{.scene = "cornell", .label = "grid", .method = MethodId::Reinforcement, .size = size};
-    row.field = {.volumes = options.volumes, .budget_megabytes = 400.0};
-    measure(scene, row, options.seconds);
-    row.label = "tree";
-    row.field.lookup = Lookup::KdTree;
-    measure(scene, row, options.seconds);
-    row.label = "linear";
-    row.field.lookup = Lookup::Linear;
-    measure(scene, row, options.seconds);
-}
-
 /// `reinforcement` by the representations that the back end serves; the row's label names them.
 void measure_fields(const std::shared_ptr<const SceneDescription>& scene, Size size, double seconds) {
     for (const auto& [label, representation] :
@@ -166,7 +153,6 @@ void run(const Options& options) {
         measure_methods(std::make_shared<const SceneDescription>(load_scene(name, find_assets_dir())), name,
                         parse_size(options.sizes.back()), options.seconds);
     if (!options.fields_size.empty()) measure_fields(cornell, parse_size(options.fields_size), options.seconds);
-    if (options.volumes > 0) measure_lookups(cornell, parse_size(options.sizes.front()), options);
     if (options.ball_rows == 0) return;
     const test::TemporaryFolder folder;
     const auto ball = std::make_shared<const SceneDescription>(
@@ -181,16 +167,13 @@ int main(int argc, char** argv) {
     Options options;
     CLI::App app{"Speed of the CUDA back end"};
     app.add_option("--seconds", options.seconds, "for each row")->check(CLI::PositiveNumber);
-    app.add_option("--sizes", options.sizes,
-                   "WIDTHxHEIGHT of the pictures; lookups have the first one, --also and the ball the last")
+    app.add_option("--sizes", options.sizes, "WIDTHxHEIGHT of the pictures; --also and the ball have the last")
         ->delimiter(',');
     app.add_option("--also", options.also, "shipped scenes to measure besides the Cornell box")->delimiter(',');
     app.add_option("--fields-size", options.fields_size,
                    "WIDTHxHEIGHT of the comparison of representations; without: none");
     app.add_option("--ball-rows", options.ball_rows, "rows of a ball of quads, 501 for a million triangles; 0: none")
         ->check(CLI::Range(0, 2000));
-    app.add_option("--volumes", options.volumes, "of the comparison of lookups; 0: none")
-        ->check(CLI::Range(0, 1000000));
     CLI11_PARSE(app, argc, argv);
     try {
         run(options);

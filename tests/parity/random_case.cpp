@@ -34,8 +34,7 @@ FieldSettings random_field(Draws& draws) {
     FieldSettings field;
     field.volumes = draws.between(1, 300);
     field.bins = draws.one_of({4, 16, 64, 256, 1024});
-    field.rate =
-        draws.one_of({LearningRate::SampleMean, LearningRate::Power, LearningRate::Floor, LearningRate::Forgetful});
+    field.rate = draws.one_of({LearningRate::SampleMean, LearningRate::Forgetful});
     field.learning.target =
         draws.one_of({LearningTarget::ExpectedSarsa, LearningTarget::Sarsa, LearningTarget::MonteCarlo});
     field.learning.light = draws.one_of({LearnedLight::All, LearnedLight::Indirect});
@@ -44,7 +43,6 @@ FieldSettings random_field(Draws& draws) {
     if (!has_target(field.representation, field.learning.target))
         field.learning.target = LearningTarget::ExpectedSarsa;
     field.precompute_samples = draws.one_of({1, 4, 9});
-    field.lookup = draws.one_of({Lookup::KdTree, Lookup::Linear, Lookup::Grid});
     field.refine_share = draws.one_of({kRefineByRecords, 0.0f, 0.5f, 1.0f});
     return field;
 }

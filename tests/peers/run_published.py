@@ -22,7 +22,6 @@ from run_peers import PEERS, python_with
 
 METHODS = {
     "default": ["--method", "default"],
-    "SD-tree, doubling": ["--method", "reinforcement", "--field", "sd-tree", "--iterations", "doubling"],
     "SD-tree": ["--method", "reinforcement", "--field", "sd-tree"],
     "table": ["--method", "reinforcement"],
 }

@@ -1,9 +1,12 @@
 // Every bit is decided by scene, settings and seed: not by the number of threads, the size of batches, the moment at which a
 // pass was stopped, other films in between, or the compiled superset of effects.
+#include "core/kernel/shading/lambert.h"
 #include "core/scene/needed_effects.h"
 #include "core/scene/pack_scene.h"
+#include "cpu/wide_intersector.h"
 #include "tests/session/interruption.h"
 #include "tests/support/catch.hpp"
+#include "tests/support/rays/brute_force.h"
 #include "tests/support/scenes/image_scenes.h"
 #include "tests/support/scenes/shapes.h"
 #include "tests/support/scenes/shipped_scenes.h"
@@ -22,6 +25,23 @@ State render(const SceneDescription& scene, const RenderSettings& settings, cons
     return state_of(session);
 }
 
+/// Rays of diffuse paths from the camera.
+std::vector<Ray> rays_of_paths(const SceneView& scene, const Camera& camera, std::size_t count) {
+    const BvhIntersector intersector{scene};
+    Uniforms random(6);
+    std::vector<Ray> rays;
+    while (rays.size() < count) {
+        rays.push_back(generate_ray(camera, 64.0f * random.square(), {64.0f, 64.0f}));
+        for (int vertex = 0; vertex < 8; ++vertex) {
+            const Hit hit = intersector.closest_hit(rays.back());
+            if (!hit.found()) break;
+            const SurfacePoint point = make_surface_point<FeatureSet{}>(scene, hit, -rays.back().direction);
+            rays.push_back(spawn_ray(point, lambert_sample(point, random.square())));
+        }
+    }
+    return rays;
+}
+
 }  // namespace
 
 TEST_CASE("Threads and batches do not change a bit of films, tables and counters") {
@@ -37,7 +57,7 @@ TEST_CASE("Threads and batches do not change a bit of films, tables and counters
     }
 }
 
-TEST_CASE("Threads, batches, intersectors and stops do not change a bit of a scene that needs every effect") {
+TEST_CASE("Threads, batches and stops do not change a bit of a scene that needs every effect") {
     const SceneDescription scene = every_effect();
     for (const Estimator estimator : kEstimators) {
         INFO(estimator);
@@ -45,8 +65,6 @@ TEST_CASE("Threads, batches, intersectors and stops do not change a bit of a sce
         const State one = render(scene, settings, {.threads = 1});
         CHECK(one.snapshot.counters.invalid_samples == 0);
         CHECK(same_state(one, render(scene, settings, {.threads = 3, .batch_paths = 37})));
-        for (const IntersectorChoice choice : {IntersectorChoice::Bvh, IntersectorChoice::Wide})
-            CHECK(same_state(one, render(scene, settings, {.threads = 2, .intersector = choice})));
         Session stopped = make_session(scene, settings, 2);
         StopFlag stop = true;
         CHECK(stopped.advance(slot_of(stopped), &stop) == Progress::Stopped);
@@ -76,14 +94,21 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("Every shipped scene has the same bits by the wide hierarchy and by the two-wide one") {
+TEST_CASE("Paths in every shipped scene meet the same hits by the wide hierarchy as by the two-wide one") {
     for (const std::string& name : list_scenes(PL_SOURCE_DIR "/assets")) {
-        const SceneDescription scene = shipped_scene(name);
-        for (const Estimator estimator : {kEstimators[1], kEstimators[4]}) {
-            INFO(name << ", " << estimator);
-            const RenderSettings settings = small_settings(scene, estimator);
-            CHECK(same_state(render(scene, settings, {.threads = 2, .intersector = IntersectorChoice::Wide}),
-                             render(scene, settings, {.threads = 2, .intersector = IntersectorChoice::Bvh})));
+        INFO(name);
+        const SceneDescription description = shipped_scene(name);
+        const HostScene packed = pack_scene(description);
+        const std::vector<Ray> rays = rays_of_paths(packed.view(), make_camera(description.camera, 64, 64), 10000);
+        const auto count = static_cast<std::uint32_t>(rays.size());
+        RayBatch batch(count);
+        for (std::uint32_t i = 0; i < count; ++i) batch.set_ray(i, rays[i]);
+        const WideIntersector wide(packed.view());
+        wide.find_closest(batch, count);
+        wide.find_occluded(batch, count);
+        for (std::uint32_t i = 0; i < count; ++i) {
+            REQUIRE(same_bits(batch.hit(i), BvhIntersector{packed.view()}.closest_hit(rays[i])));
+            REQUIRE(batch.occluded(i) == batch.hit(i).found());
         }
     }
 }

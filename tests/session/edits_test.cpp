@@ -115,7 +115,6 @@ std::vector<Case> all_cases(const SceneDescription& scene, const RenderSettings&
          EditScene{std::make_shared<const SceneDescription>(brighter)},
          {.films = true, .tables = true, .volumes = true, .scene = true}},
         {"material", EditMaterial{0, darker}, {.films = true, .tables = true}},
-        {"effects", EditEffects{kEveryFeature}, {}},
         {"back end", EditBackend{make_cpu_backend({.threads = 1})}, {}},
         {"restart", EditRestart{}, {.films = true}},
         {"forget", EditForget{}, {.films = true, .tables = true}},
@@ -150,7 +149,6 @@ RenderSettings edited(RenderSettings settings, const SessionEdit& edit) {
     }
     if (const auto* mixture = std::get_if<EditMixture>(&edit)) settings.mixture = mixture->mixture;
     if (const auto* field = std::get_if<EditField>(&edit)) settings.field = field->field;
-    if (const auto* effects = std::get_if<EditEffects>(&edit)) settings.forced_effects = effects->forced;
     if (const auto* learned = std::get_if<EditLearned>(&edit)) settings.field = learned->field->settings;
     return settings;
 }

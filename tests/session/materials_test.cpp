@@ -214,26 +214,6 @@ TEST_CASE("Material edit: a parked back end gets the changed scene when it retur
     check_like_fresh(session, change.after());
 }
 
-TEST_CASE("Material edit: forced effects change the kernel and no bit") {
-    const SceneDescription scene = shipped_scene("cornell");
-    for (const MethodInfo& method : all_methods()) {
-        INFO(method.name);
-        RenderSettings settings = tiny_settings(scene);
-        settings.method = method.id;
-        Session session = make_session(scene, settings, 2);
-        Session plain = make_session(scene, settings, 2);
-        const std::string kernel = session.served_kernel(slot_of(session)).name;
-        CHECK(invalidated_by(EditEffects{kEveryFeature}) == Invalidation{});
-        for (int pass = 0; pass < 4; ++pass) {
-            session.apply(EditEffects{pass % 2 == 0 ? kEveryFeature : FeatureSet{}});
-            CHECK((session.served_kernel(slot_of(session)).name == kernel) == (pass % 2 == 1));
-            render_passes(session, 1);
-            render_passes(plain, 1);
-        }
-        CHECK(same_state(state_of(plain), state_of(session)));
-    }
-}
-
 TEST_CASE("Material edit: one that does not fit into the back end changes nothing") {
     const Change change = all_changes().front();
     const auto backend = std::make_shared<FailingBackend>();

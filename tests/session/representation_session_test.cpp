@@ -104,9 +104,6 @@ TEST_CASE("A checkpoint of a session with any representation is continued with t
     const SceneDescription scene = shipped_scene("door");
     for (const Represented& represented : kRepresented)
         check_checkpoint(scene, settings_of(represented, scene, true));
-    RenderSettings doubling = settings_of(kRepresented[0], scene, true);
-    doubling.field.iterations = Iterations::Doubling;
-    check_checkpoint(scene, doubling);
 }
 
 TEST_CASE("Other representations drop what was learned, and return to the same bits") {

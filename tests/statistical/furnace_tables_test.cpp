@@ -36,13 +36,7 @@ HostTables precomputed_tables(bool next_event) {
 
 /// The share of the old mean that remains where this share of the visits is new.
 double kept_share(double share, LearningRate rate) {
-    switch (rate) {
-    case LearningRate::SampleMean: return 1.0 - share;
-    case LearningRate::Power: return 1.0 - std::pow(share, 0.7);
-    case LearningRate::Floor: return 1.0 - std::max(share, static_cast<double>(kLeastStep));
-    case LearningRate::Forgetful: break;
-    }
-    return std::pow(1.0 - share, 4.0);
+    return rate == LearningRate::SampleMean ? 1.0 - share : std::pow(1.0 - share, 4.0);
 }
 
 /// Follows a table through its updates and bounds the distance of each cell from the fixed point. Targets
@@ -95,21 +89,16 @@ constexpr double kTableRounding = 2.0 * (4 + 1 + 6 + 16) * static_cast<double>(k
 
 // Targets of all light in a furnace have no noise given the tables, so there is nothing statistical here: every cell has to
 // be within its derived bound. Seed 1, 1024 paths per pass: the forgetful rate has to bring all bounds below 0.1 % in
-// 150 passes, the power below 0.2 % and the floor below 0.6 %; the rate 1/(1+visits), whose error falls like
-// visits^-(1-rho), below 3 % in 800.
+// 150 passes; the rate 1/(1+visits), whose error falls like visits^-(1-rho), below 3 % in 800.
 TEST_CASE("Reinforcement learns e/(1-rho) in every cell of the furnace") {
-    for (const LearningRate rate :
-         {LearningRate::Forgetful, LearningRate::SampleMean, LearningRate::Power, LearningRate::Floor})
+    for (const LearningRate rate : {LearningRate::Forgetful, LearningRate::SampleMean})
         for (const bool next_event : {false, true}) {
             const SceneDescription scene = furnace_scene(kEmission, kRho);
             RenderSettings settings = furnace_settings({MethodId::Reinforcement, next_event}, scene);
             settings.field.rate = rate;
             settings.field.learning.light = LearnedLight::All;
             const std::uint32_t passes = rate == LearningRate::SampleMean ? 800 : 150;
-            const double wanted = rate == LearningRate::SampleMean ? 0.03
-                                  : rate == LearningRate::Floor    ? 0.006
-                                  : rate == LearningRate::Power    ? 0.002
-                                                                   : 0.001;
+            const double wanted = rate == LearningRate::SampleMean ? 0.03 : 0.001;
             INFO("rate " << static_cast<int>(rate) << ", next-event estimation " << next_event);
             Session session = make_session(scene, settings);
             session.find_volume_at(Vec3f{0.0f}, Vec3f{0.0f, 1.0f, 0.0f});  // places the volumes

@@ -45,7 +45,6 @@ struct FakeControl {
     }
     std::mutex mutex;
     std::map<MethodId, HostTables> uploaded;    ///< the newest of each method to be uploaded; read by tables_in()
-    std::vector<FeatureSet> served;             ///< of each complete pass, the effects required of its kernel
     std::map<MethodId, HostTables> downloaded;  ///< the newest of each method to be downloaded
 };
 
@@ -148,10 +147,6 @@ public:
             ++counters.invalid_samples;
         }
         record(request);
-        {
-            const std::lock_guard lock(control_->mutex);
-            control_->served.push_back(request.features);
-        }
         if (end == pixels) ++control_->passes;
         return counters;
     }

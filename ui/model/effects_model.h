@@ -1,4 +1,4 @@
-// The effects of the rendered scene as the panel shows them: whether and why each is needed, and its measured cost.
+// The effects of the rendered scene as the window shows them: whether and why each is needed, and the kernel that serves them.
 #pragma once
 
 #include <string>
@@ -9,45 +9,39 @@
 namespace pl {
 
 struct EffectRow {
-    Feature feature;
     std::string name;
     std::string reason;  ///< why it is needed; empty if it is not
-    std::string kernel;  ///< that serves the needed effects and this one
 
     bool needed() const { return !reason.empty(); }
-    FeatureSet with() const { return FeatureSet{}.with(feature); }
 };
 
 class EffectsModel {
 public:
-    /// Drops costs that were measured on another picture, back end or kernel.
-    void update(const PublishedFrame& frame, const std::optional<EffectTrialCost>& measured);
+    void update(const PublishedFrame& frame);
 
     const std::vector<EffectRow>& rows() const { return rows_; }
-    /// The kernel that serves the needed effects, with none forced.
+    /// The kernel that serves the needed effects.
     const std::string& kernel() const { return kernel_; }
-    std::string kernel_with(FeatureSet forced) const;
-    /// The cost of forcing these effects, measured for any effects that the same kernel serves; null if unknown.
-    const EffectTrialCost* cost_of(FeatureSet forced) const;
+    /// The kernel in use, which serves effects forced on the command line, too.
+    const std::string& forced_kernel() const { return forced_kernel_; }
 
 private:
-    /// The picture, back end and kernel of a measured cost.
+    /// All that decides rows and kernels.
     struct Place {
         std::shared_ptr<const HostScene> scene;
         FeatureSet needed;
         FilmSlot slot;
         LearningSettings learning{};
         std::string backend;
-        int width = 0;
-        int height = 0;
 
         friend bool operator==(const Place&, const Place&) = default;
     };
+    std::string kernel_with(FeatureSet forced) const;
 
     Place place_;
     std::vector<EffectRow> rows_;
     std::string kernel_;
-    std::vector<EffectTrialCost> costs_;
+    std::string forced_kernel_;
 };
 
 }  // namespace pl

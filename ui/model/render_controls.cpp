@@ -99,18 +99,10 @@ void RenderControls::set_size(int width, int height) {
     worker_.submit(EditSize{width, height});
 }
 
-void RenderControls::set_forced_effects(FeatureSet forced) {
-    if (forced == settings_.forced_effects) return;
-    settings_.forced_effects = forced;
-    worker_.submit(EditEffects{forced});
-}
-
 void RenderControls::adopt_field(const std::shared_ptr<LearnedField>& field) {
     selection_.deselect();
     selection_.pins().clear();
     link_.end_turns(settings_.method);
-    field->settings.lookup = settings_.field.lookup;
-    field->shape.lookup = settings_.field.lookup;
     if (field->method != settings_.method) previous_method_ = settings_.method;
     settings_.method = field->method;
     settings_.field = field->settings;

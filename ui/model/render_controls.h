@@ -33,8 +33,7 @@ public:
     void set_mixture(MixtureSettings mixture);
     void set_field(const FieldSettings& field);
     void set_size(int width, int height);
-    void set_forced_effects(FeatureSet forced);
-    /// Continues from a saved field: its method and settings become those of the rendering, except for the lookup.
+    /// Continues from a saved field: its method and settings become those of the rendering.
     void adopt_field(const std::shared_ptr<LearnedField>& field);
 
     void set_limits(const SampleLimits& limits);

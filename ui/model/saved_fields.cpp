@@ -12,8 +12,8 @@ namespace pl {
 
 SavedFields::SavedFields(const ModelServices& services, FileNames& names, const ViewedScene& scene,
                          RenderControls& render)
-    : options_(services.options), messages_(services.messages), jobs_(services.jobs), link_(services.link),
-      names_(names), scene_(scene), render_(render) {}
+    : messages_(services.messages), jobs_(services.jobs), link_(services.link), names_(names), scene_(scene),
+      render_(render) {}
 
 std::filesystem::path SavedFields::next_name(MethodId method) {
     const std::string suffix(kFieldSuffix);
@@ -73,8 +73,7 @@ void SavedFields::load_newest() {
 
 void SavedFields::load(const std::filesystem::path& path) {
     jobs_.push([this, path, scene = scene_.rendered()]() -> JobThread::Report {
-        const std::shared_ptr<LearnedField> field =
-            load_window_field(path, *scene.description, options_.settings.field);
+        const std::shared_ptr<LearnedField> field = load_window_field(path, *scene.description);
         return [this, field, path, scene] {
             if (scene.description != link_.status().scene)
                 messages_.say(MessageLevel::Error, fmt::format("{}: the scene was changed meanwhile", path.string()));

@@ -34,7 +34,6 @@ private:
     std::filesystem::path next_name(MethodId method);
     std::filesystem::path newest_file() const;
 
-    const ViewerOptions& options_;
     Messages& messages_;
     Jobs& jobs_;
     RenderLink& link_;

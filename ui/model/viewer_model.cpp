@@ -28,7 +28,7 @@ ViewerModel::ViewerModel(const ViewerOptions& options, std::shared_ptr<const Sce
       camera_(options.settings.camera, CameraControls(settings.camera, bounds_of(*scene).diagonal()), link_.worker()),
       selection_(link_, display_, messages_),
       render_({options, messages_, jobs_, link_}, camera_, selection_, settings),
-      scene_({options, messages_, jobs_, link_}, camera_, selection_, scene), effects_(link_, messages_),
+      scene_({options, messages_, jobs_, link_}, camera_, selection_, scene),
       references_({options, messages_, jobs_, link_}, render_, scene_),
       comparison_(link_, messages_, render_, references_), diagnostics_(link_, messages_, render_),
       self_test_({options, messages_, jobs_, link_}),
@@ -65,7 +65,7 @@ void ViewerModel::update(double seconds) {
     comparison_.update();
     for (const WorkerMessage& message : link_.worker().take_messages())
         messages_.say(message.is_error ? MessageLevel::Error : MessageLevel::Info, message.text);
-    effects_.update();
+    if (link_.frame()) effects_.update(*link_.frame());
     selection_.update();
     files_.fields().update();
     diagnostics_.update();

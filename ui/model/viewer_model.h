@@ -9,7 +9,7 @@
 #include "ui/model/camera_flight.h"
 #include "ui/model/compare_controls.h"
 #include "ui/model/diagnostics_search.h"
-#include "ui/model/effect_trials.h"
+#include "ui/model/effects_model.h"
 #include "ui/model/field_flowers.h"
 #include "ui/model/gain_marks.h"
 #include "ui/model/guided_tour.h"
@@ -53,8 +53,7 @@ public:
     const RenderControls& render() const { return render_; }
     ViewedScene& scene() { return scene_; }
     const ViewedScene& scene() const { return scene_; }
-    EffectTrials& effects() { return effects_; }
-    const EffectTrials& effects() const { return effects_; }
+    const EffectsModel& effects() const { return effects_; }
     References& references() { return references_; }
     const References& references() const { return references_; }
     CompareControls& comparison() { return comparison_; }
@@ -106,7 +105,7 @@ private:
     Selection selection_;
     RenderControls render_;
     ViewedScene scene_;
-    EffectTrials effects_;
+    EffectsModel effects_;
     References references_;
     CompareControls comparison_;
     DiagnosticsSearch diagnostics_;

@@ -34,15 +34,13 @@ void save_window_pixels(const std::filesystem::path& path, const ScreenPixels& p
     write_png8(path, {.width = pixels.width, .height = pixels.height, .rgb = pixels.rgb});
 }
 
-std::shared_ptr<LearnedField> load_window_field(const std::filesystem::path& path, const SceneDescription& scene,
-                                                const FieldSettings& settings) {
+std::shared_ptr<LearnedField> load_window_field(const std::filesystem::path& path, const SceneDescription& scene) {
     const auto field = std::make_shared<LearnedField>(read_field(path));
     try {
         require_learned_in(scene, *field);
     } catch (const Error& error) {
         throw Error(error.kind(), fmt::format("{}: {}", path.string(), error.what()));
     }
-    fit_to_run(*field, settings);
     return field;
 }
 

@@ -17,9 +17,7 @@ void save_window_picture(const std::filesystem::path& path, const Snapshot& snap
 /// Writes the pixels of the whole window, panels included, as .png.
 void save_window_pixels(const std::filesystem::path& path, const ScreenPixels& pixels);
 
-/// Reads a learned field for the open scene; its lookup is that of `settings`. Throws Error(Input) for a damaged file or one
-/// of another scene.
-std::shared_ptr<LearnedField> load_window_field(const std::filesystem::path& path, const SceneDescription& scene,
-                                                const FieldSettings& settings);
+/// Reads a learned field for the open scene. Throws Error(Input) for a damaged file or one of another scene.
+std::shared_ptr<LearnedField> load_window_field(const std::filesystem::path& path, const SceneDescription& scene);
 
 }  // namespace pl

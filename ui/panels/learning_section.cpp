@@ -30,16 +30,15 @@ void draw_refinement(ViewerModel& model, FieldSettings settings) {
 
 /// The targets of training samples and the learning rate. Every change restarts pictures and fields.
 void draw_learning_targets(ViewerModel& model, FieldSettings settings) {
-    constexpr std::array kRates{LearningRate::SampleMean, LearningRate::Forgetful, LearningRate::Power,
-                                LearningRate::Floor};
+    constexpr std::array kRates{LearningRate::SampleMean, LearningRate::Forgetful};
     int rate = static_cast<int>(std::ranges::find(kRates, settings.rate) - kRates.begin());
     int target = static_cast<int>(settings.learning.target);
     int light = static_cast<int>(settings.learning.light);
     bool changed =
         choice_row("Learning rate",
                    "Step of an update with n training samples so far. Mean: 1/(1+n). Forgetful: discounts early "
-                   "training samples. Power: n^-0.7. Floor: at least 0.05.",
-                   &rate, "Mean\0Forgetful\0Power\0Floor\0");
+                   "training samples.",
+                   &rate, "Mean\0Forgetful\0");
     changed |=
         choice_row("Learns from",
                    "The target of a training sample. Expected Sarsa: the expected reflected radiance at the next "

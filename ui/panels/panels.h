@@ -36,7 +36,7 @@ void draw_histogram(ViewerModel& model);
 // Tabs of the right panel.
 void draw_volume_tab(ViewerModel& model);
 void draw_material_tab(ViewerModel& model);
-void draw_effects_tab(ViewerModel& model);
+void draw_effects_tab(const ViewerModel& model);
 void draw_pixel_tab(ViewerModel& model, const std::optional<HoveredPixel>& hovered);
 void draw_statistics_tab(const ViewerModel& model);
 void draw_paths_tab(ViewerModel& model);

@@ -4,9 +4,7 @@
 #include <array>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
-#include "core/scene/needed_effects.h"
 #include "core/session/backend_text.h"
 #include "ui/draw/imgui_compat.h"
 #include "ui/model/viewer_model.h"
@@ -56,12 +54,6 @@ std::string shown_sides(const ViewerModel& model) {
 std::string cursor_kind(const ViewerModel& model) {
     const Cursor::Kind kind = model.comparison().accuracy().cursor().kind;
     return kind == Cursor::Kind::None ? "none" : (kind == Cursor::Kind::EqualCost ? "cost" : "error");
-}
-
-/// Of the kernel that serves every effect.
-std::string measured_pairs(const ViewerModel& model) {
-    const EffectTrialCost* cost = model.effects().table().cost_of(kEveryFeature);
-    return fmt::format("{}", cost != nullptr ? cost->result.pairs : 0);
 }
 
 /// The marks in the picture.
@@ -224,11 +216,6 @@ constexpr std::array kValues{
               const auto index = m.scene().selected_material();
               return index ? shown_name(m.scene().materials().now()[*index], *index) : std::string("none");
           }},
-    Value{"forced",
-          [](const ViewerModel& m) {
-              const std::vector<std::string> names = effect_names(m.render().settings().forced_effects);
-              return names.empty() ? std::string("none") : fmt::format("{}", fmt::join(names, ","));
-          }},
     Value{"measure_percent",
           [](const ViewerModel& m) {
               const LiveRunSet* set = m.comparison().accuracy().set();
@@ -241,8 +228,6 @@ constexpr std::array kValues{
                                                ? m.comparison().accuracy().set()->charged_seconds
                                                : 0.0);
           }},
-    Value{"measuring", [](const ViewerModel& m) { return word(m.effects().measuring().has_value()); }},
-    Value{"effect_pairs", measured_pairs},
     Value{"edited",
           [](const ViewerModel& m) { return fmt::format("{}", m.scene().materials().edited_names().size()); }},
     Value{"scene", [](const ViewerModel& m) { return m.scene().name(); }},

@@ -10,7 +10,6 @@
 
 #include "core/diagnose/find_diagnostics.h"
 #include "core/diagnose/pixel_paths.h"
-#include "core/measure/paired_cost.h"
 #include "core/scene/default_light.h"
 #include "core/scene/pack_scene.h"
 #include "core/session/shown_range.h"
@@ -83,24 +82,14 @@ struct TurnsStatus {
     bool catching_up = false;         ///< one works alone until both have had the same time
 };
 
-/// The measured cost of forcing effects.
-struct EffectTrialCost {
-    FeatureSet forced;
-    std::string base_kernel;  ///< of the needed effects
-    std::string kernel;       ///< of the needed and the forced effects
-    PairedCost::Result result;
-    bool done = false;
-};
-
 /// Changes with every pass; cheap to copy.
 struct WorkerStatus {
     WorkerState state = WorkerState::Starting;
     std::uint32_t passes = 0;
     std::uint64_t all_passes = 0;  ///< of every film, since the start
     int divider = 1;
-    double seconds = 0.0;                        ///< work_seconds()
-    std::optional<EffectTrialCost> effect_cost;  ///< while a trial runs
-    std::optional<TurnsStatus> turns;            ///< then passes and seconds are those of the first method
+    double seconds = 0.0;              ///< work_seconds()
+    std::optional<TurnsStatus> turns;  ///< then passes and seconds are those of the first method
     std::uint64_t generation = 0;
     std::uint64_t picture = 0;  ///< picture_key() of the film, as RunLabel::picture; 0 while the camera moves
     std::shared_ptr<const SceneDescription> scene;  ///< with the materials as edited; never null

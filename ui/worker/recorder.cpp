@@ -20,7 +20,6 @@ std::string details_of(const Session& session, FilmSlot slot) {
     if (!info_of(slot.method).uses_field) return text;
     if (settings.guiding == GuidingRule::Always) add("always guided");
     FieldSettings field = settings.field;
-    field.lookup = standard.field.lookup;  // both lookups find the same volumes
     if (field.volumes != standard.field.volumes) add(fmt::format("{} volumes", field.volumes));
     if (field.bins != standard.field.bins) add(fmt::format("{} bins", field.bins));
     if (field.refine_share != standard.field.refine_share)

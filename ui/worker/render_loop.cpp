@@ -26,11 +26,9 @@ bool changes_cells(const WorkerEdit& edit) {
 
 RenderLoop::RenderLoop(const WorkerSetup& setup, Inbox& inbox, Outbox& outbox)
     : inbox_(inbox), outbox_(outbox), backends_(setup.make_backend, setup.backends, setup.first_backend),
-      shown_(slot_of(setup.settings)),
-      size_(setup.settings.width, setup.settings.height), measured_{.trial =
-                                                                        EffectTrial(setup.settings.forced_effects)},
+      shown_(slot_of(setup.settings)), size_(setup.settings.width, setup.settings.height),
       facts_(facts_of(*setup.scene)) {
-    outbox_.set_runs(measured_.runs.runs());
+    outbox_.set_runs(runs_.runs());
 }
 
 void RenderLoop::run(const WorkerSetup& setup) {
@@ -70,16 +68,15 @@ bool RenderLoop::take_requests() {
     if (now_.backend != backends_.current()) change_backend();
     settle_turns();
     if (!attempt([this] { settle_preview(wanted_preview()); })) failed_ = true;
-    measured_.trial.settle(*session_, now_.trial);
     adopt_reference();
     inbox_.begin_pass(!is_coarse(), now_, backends_.current());
     return true;
 }
 
 bool RenderLoop::has_work() const {
-    const bool is_other = now_.turns.has_value() != turns_.has_value() || !measured_.trial.matches(now_.trial) ||
-                          now_.history_bytes != watched_.history.limit() ||
-                          now_.reference != measured_.runs.reference() || now_.backend != backends_.current();
+    const bool is_other = now_.turns.has_value() != turns_.has_value() ||
+                          now_.history_bytes != watched_.history.limit() || now_.reference != runs_.reference() ||
+                          now_.backend != backends_.current();
     if (now_.once.has_question() || is_other) return true;
     if (passes() > 0 && frames_.is_stale(now_)) return true;
     if (failed_) return false;
@@ -111,9 +108,9 @@ void RenderLoop::settle_preview(Preview wanted) {
 }
 
 void RenderLoop::adopt_reference() {
-    if (now_.reference == measured_.runs.reference()) return;
-    attempt([this] { measured_.runs.set_reference(now_.reference); });
-    outbox_.set_runs(measured_.runs.runs());
+    if (now_.reference == runs_.reference()) return;
+    attempt([this] { runs_.set_reference(now_.reference); });
+    outbox_.set_runs(runs_.runs());
 }
 
 void RenderLoop::apply_edits(const std::vector<WorkerEdit>& edits) {
@@ -150,7 +147,6 @@ void RenderLoop::apply(const SessionEdit& edit) {
     session_->apply(edit);
     if (std::holds_alternative<EditScene>(edit) || std::holds_alternative<EditMaterial>(edit))
         facts_ = facts_of(session_->scene());
-    if (const auto* effects = std::get_if<EditEffects>(&edit)) measured_.trial.set_forced(effects->forced);
     if (const auto* learned = std::get_if<EditLearned>(&edit)) shown_.method = learned->field->method;
 }
 
@@ -185,16 +181,14 @@ void RenderLoop::take_turn() {
 void RenderLoop::render() {
     const Stopwatch watch;
     const bool is_whole = !is_coarse() && size_.is_whole();
-    measured_.trial.begin_pass(*session_, slot(), is_whole);
     const std::uint32_t before = passes();
     const Progress progress = session_->advance(slot(), inbox_.stop_flag(), is_whole ? most_passes() : 1);
-    measured_.trial.end_pass(*session_, slot(), backends_.current(), progress);
     all_passes_ += passes() - before;
     if (progress == Progress::Rendered) {
         if (passes() == 1) frames_.ask();
         size_.observe(watch.seconds() / std::max(1u, passes() - before));
     }
-    if (is_whole && measured_.runs.observe(*session_, slot())) outbox_.set_runs(measured_.runs.runs());
+    if (is_whole && runs_.observe(*session_, slot())) outbox_.set_runs(runs_.runs());
     if (turns_) turns_->count(*session_, shown_.view);
     update_status();
     if (now_.once.steps > 0 || limit_reached() || now_.paused) frames_.ask();
@@ -203,7 +197,7 @@ void RenderLoop::render() {
 /// Passes that may be rendered at once: one where each is looked at, or has to come soon.
 std::uint32_t RenderLoop::most_passes() const {
     constexpr std::uint32_t kMostAtOnce = 16;
-    const bool is_watched = now_.moving || now_.paused || now_.once.steps > 0 || turns_ || now_.trial;
+    const bool is_watched = now_.moving || now_.paused || now_.once.steps > 0 || turns_;
     if (is_watched || passes() == 0) return 1;
     if (now_.limits.spp == 0) return kMostAtOnce;
     return now_.limits.spp > passes() ? std::min(now_.limits.spp - passes(), kMostAtOnce) : 1;
@@ -241,7 +235,6 @@ void RenderLoop::publish() {
     auto frame = std::make_shared<PublishedFrame>(frame_of_film(*session_, slot(), now_.display, now_.values));
     frame->settings.width = size_.width();
     frame->settings.height = size_.height();
-    frame->settings.forced_effects = measured_.trial.forced();
     frame->generation = now_.generation;
     frame->divider = size_.divider();
     frame->preview = preview_.now();
@@ -269,12 +262,10 @@ WorkerStatus RenderLoop::make_status() const {
     WorkerStatus status;
     status.passes = passes();
     status.all_passes = all_passes_;
-    status.picture = size_.is_whole() && preview_.now() == Preview::None
-                         ? measured_.runs.picture(session_->film_origin(slot()))
-                         : 0;
+    status.picture =
+        size_.is_whole() && preview_.now() == Preview::None ? runs_.picture(session_->film_origin(slot())) : 0;
     status.scene = session_->shared_scene();
     status.divider = size_.divider();
-    status.effect_cost = measured_.trial.cost();
     status.generation = now_.generation;
     status.field = session_->field_status(shown_.method);
     status.seconds = work_seconds(session_->clocks(slot()));

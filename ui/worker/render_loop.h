@@ -4,7 +4,6 @@
 
 #include "ui/worker/backend_switch.h"
 #include "ui/worker/cell_image.h"
-#include "ui/worker/effect_trial.h"
 #include "ui/worker/field_history.h"
 #include "ui/worker/frame_schedule.h"
 #include "ui/worker/inbox.h"
@@ -36,11 +35,6 @@ public:
     void run(const WorkerSetup& setup);
 
 private:
-    /// Measurements of the passes.
-    struct Measured {
-        EffectTrial trial;
-        Recorder runs{};
-    };
     /// The parts of the learned field that the window shows.
     struct Watched {
         Inspection selected{};
@@ -99,7 +93,7 @@ private:
     PictureSize size_;
     std::optional<MethodTurns> turns_;
     MotionPreview preview_;
-    Measured measured_;
+    Recorder runs_;
     CellRenderer cells_;
     Watched watched_;
     FrameSchedule frames_;

@@ -116,15 +116,7 @@ void RenderWorker::set_reference(std::shared_ptr<const LiveReference> reference)
 void RenderWorker::set_turns(std::optional<TurnMethods> methods) {
     inbox_.request([&](Requests& requests) {
         requests.turns = methods;
-        if (methods) requests.trial.reset();
         return Interrupts::Pass;
-    });
-}
-
-void RenderWorker::measure_effects(std::optional<FeatureSet> forced) {
-    inbox_.request([&](Requests& requests) {
-        requests.trial = requests.turns ? std::nullopt : forced;
-        return Interrupts::Nothing;
     });
 }
 

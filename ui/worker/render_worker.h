@@ -40,8 +40,6 @@ public:
     void set_reference(std::shared_ptr<const LiveReference> reference);
     /// Lets two methods render in turns of equal charged time; empty ends it.
     void set_turns(std::optional<TurnMethods> methods);
-    /// Measures the cost of forcing these effects; empty ends it. Not while methods are in turns. WorkerStatus has it.
-    void measure_effects(std::optional<FeatureSet> forced);
     /// Whether frames carry the image of the volumes' cells.
     void set_cells_wanted(bool wanted);
     /// Requests the surface under a point of the image, in [0,1)^2 from the top left.

@@ -131,8 +131,6 @@ PL_HD inline float log_of_complement(float y) {
     const float high = 1.0f / 7.0f + z * (1.0f / 9.0f + z * (1.0f / 11.0f + z * (1.0f / 13.0f)));
     return 2.0f * s * (1.0f + z * (1.0f / 3.0f + z * (1.0f / 5.0f + z * high)));
 }
-/// x^p for x in (0, 1], normal, and p in (0, 1].
-PL_INLINE float power(float x, float p) { return exp_of(p * log_of(x)); }
 
 /// log2(x) for normal x > 0, exact for powers of two, error below 2e-7 (1 + |log2(x)|). Series of atanh; not the math
 /// library's, which rounds differently on CPU and GPU.

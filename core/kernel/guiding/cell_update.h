@@ -8,19 +8,12 @@
 namespace pl {
 
 /// The learning rate. With N training samples in a cell and m new ones the learned radiance moves towards the mean of
-/// the new ones by a step that depends on s = m/(N+m), one over the number n of batches of this size. Files store
-/// these numbers.
+/// the new ones by a step that depends on s = m/(N+m). Files store these numbers, and 2 and 3 name no rate.
 enum class LearningRate : std::uint32_t {
     SampleMean = 1,  ///< s, the rate 1/(1+visits) of Dahm and Keller 2017: the mean of all targets
-    /// s^0.7, the polynomial rate n^-0.7: between 1/2, where noise would stay, and 1   [Even-Dar and Mansour 2003]
-    Power = 2,
-    Floor = 3,  ///< s, but at least kLeastStep: never converges, always follows
     /// 1 - (1-s)^4: forgets early targets, which bootstrap from poor tables, and still averages the noise of later ones
     Forgetful = 4,
 };
-
-inline constexpr float kLeastStep = 0.05f;
-inline constexpr float kPowerRate = 0.7f;
 
 /// Uniform share of a table's probabilities: every cell has a positive one, which bounds the weight of light that no
 /// training sample has found.
@@ -34,8 +27,6 @@ PL_INLINE typename N::Real learning_step(const typename N::Uint& visits, const t
     const typename N::Real m = N::count_to_real(fresh);
     const typename N::Real share = m / (N::count_to_real(visits) + m);
     if (rate == LearningRate::SampleMean) return share;
-    if (rate == LearningRate::Floor) return max_real<N>(share, kLeastStep);
-    if (rate == LearningRate::Power) return min_real<N>(N::power(share, kPowerRate), 1.0f);
     // 1 - (1-s)^4; rounding must not carry the mean past its targets.
     return min_real<N>(share * (4.0f + share * (-6.0f + share * (4.0f - share))), 1.0f);
 }

@@ -1,5 +1,5 @@
 // Lookup of the volume that serves a point of a triangle in a few loads: the triangle's side, or the cell of the grid
-// on it, lists the few volumes that can be nearest there. Returns the same volume as the searches of volume_lookup.h
+// on it, lists the few volumes that can be nearest there. Returns the same volume as the search of volume_lookup.h
 // for every point of make_surface_point(). Built by core/fields/volume_grid.h, which gives the conditions.
 #pragma once
 
@@ -178,11 +178,9 @@ PL_HD inline GridAnswer volume_at_place(const KdTreeView& tree, const VolumeGrid
 
 /// The volume that serves a surface point, if there is one.
 PL_HD inline FoundVolume find_volume(const KdTreeView& tree, const VolumeGridView& grid, const SurfacePoint& point) {
-    if (tree.lookup == Lookup::Grid) {
-        const VolumePlace place = grid.place_of(point.primitive, point.front, point.position);
-        const GridAnswer answer = volume_at_place(tree, grid, place, point.position);
-        if (answer.is_known) return answer.found;
-    }
+    const VolumePlace place = grid.place_of(point.primitive, point.front, point.position);
+    const GridAnswer answer = volume_at_place(tree, grid, place, point.position);
+    if (answer.is_known) return answer.found;
     return {.volume = find_volume(tree, point.position, point.geometric_normal)};
 }
 

@@ -1,6 +1,6 @@
-// Lookup of the radiance volume that serves a surface point: the nearest with an agreeing normal; ties go to the
-// lowest number. All searches return the same volume for every input, which tests assert. The grid is in
-// volume_grid.h.
+// The radiance volume that serves a surface point is the nearest with an agreeing normal; ties go to the lowest number. This is the
+// search of a tree: it builds the grids on triangles (volume_grid.h), serves points for which these have no answer, and finds the
+// several nearest. Tests hold both to the volume of a linear search.
 #pragma once
 
 #include <cstdint>
@@ -11,9 +11,6 @@
 namespace pl {
 
 inline constexpr std::int32_t kNoVolume = -1;
-
-/// Search structure of the lookup. All find the same volume, in different times.
-enum class Lookup : std::uint32_t { KdTree, Linear, Grid };
 
 /// Cosine of the largest angle between the normals of a surface point and of the volume that serves it.
 inline constexpr float kMinNormalCosine = 0.8f;
@@ -32,7 +29,6 @@ static_assert(sizeof(KdNode) == 32);
 /// are not larger along its axis, entries behind it not smaller.
 struct KdTreeView {
     Span<const KdNode> nodes;
-    Lookup lookup = Lookup::KdTree;
 };
 
 /// Ranges halve at every step, so 32 entries serve any 32-bit count.
@@ -129,22 +125,10 @@ PL_HD inline void search_kd_tree(const KdTreeView& tree, Vec3f position, Vec3f n
     }
 }
 
-/// Offers every volume to `result`: the reference for the tests and timings of the tree.
-template <class Result>
-PL_HD inline void search_all(const KdTreeView& tree, Vec3f position, Vec3f normal, Result& result) {
-    for (std::uint32_t i = 0; i < tree.nodes.count; ++i) {
-        const KdNode node = tree.nodes[i];
-        result.consider(node, position, normal);
-    }
-}
-
 /// The volume that serves a point given by position and normal alone, or kNoVolume.
 PL_HD inline std::int32_t find_volume(const KdTreeView& tree, Vec3f position, Vec3f normal) {
     Nearest nearest;
-    if (tree.lookup == Lookup::Linear)
-        search_all(tree, position, normal, nearest);
-    else
-        search_kd_tree(tree, position, normal, nearest);
+    search_kd_tree(tree, position, normal, nearest);
     return nearest.volume;
 }
 

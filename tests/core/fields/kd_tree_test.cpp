@@ -6,6 +6,7 @@
 #include "core/fields/place_volumes.h"
 #include "tests/core/fields/nanoflann_index.h"
 #include "tests/support/catch.hpp"
+#include "tests/support/field/linear_search.h"
 #include "tests/support/scenes/shapes.h"
 
 using namespace pl;
@@ -52,11 +53,6 @@ Vec3f random_query(const Sites& sites, Uniforms& random) {
     return p;
 }
 
-KdTreeView linear(KdTreeView tree) {
-    tree.lookup = Lookup::Linear;
-    return tree;
-}
-
 void check_searches(const Sites& sites, int queries, const std::function<Vec3f(Uniforms&)>& normal) {
     const std::vector<KdNode> nodes = tree_of(sites);
     const std::unique_ptr<NanoflannIndex> index = sites.empty() ? nullptr : std::make_unique<NanoflannIndex>(sites);
@@ -70,7 +66,7 @@ void check_searches(const Sites& sites, int queries, const std::function<Vec3f(U
         REQUIRE(found.volume == expected.volume);
         REQUIRE(bits(found.distance2) == bits(expected.distance2));
         REQUIRE(find_volume(view(nodes), position, n) == expected.volume);
-        REQUIRE(find_volume(linear(view(nodes)), position, n) == expected.volume);
+        REQUIRE(find_volume_by_all(view_of(nodes), position, n) == expected.volume);
         if (index != nullptr && n == Vec3f{0, 0, 1})
             REQUIRE(bits(index->nearest_distance2(position)) == bits(expected.distance2));
     }
@@ -193,7 +189,7 @@ TEST_CASE("Points and queries that are not finite find nothing") {
             Vec3f query{1.0f};
             query[axis] = bad;
             CHECK(find_volume(view(nodes), query, {0, 0, 1}) == kNoVolume);
-            CHECK(find_volume(linear(view(nodes)), query, {0, 0, 1}) == kNoVolume);
+            CHECK(find_volume_by_all(view_of(nodes), query, {0, 0, 1}) == kNoVolume);
         }
     CHECK(find_volume(view(nodes), {1, 1, 1}, Vec3f{nan}) == kNoVolume);
 }

@@ -4,6 +4,7 @@
 #include <thread>
 
 #include "tests/support/catch.hpp"
+#include "tests/support/field/linear_search.h"
 #include "tests/support/scenes/shapes.h"
 
 using namespace pl;
@@ -16,10 +17,6 @@ std::vector<KdNode> random_nodes(std::uint32_t count, Uniforms& random) {
     for (std::uint32_t i = 0; i < count; ++i)
         nodes.push_back({.position = random.direction(), .volume = i, .normal = random.direction(), .axis = 0});
     return nodes;
-}
-
-KdTreeView all_of(const std::vector<KdNode>& nodes) {
-    return {{nodes.data(), static_cast<std::uint32_t>(nodes.size())}, Lookup::Linear};
 }
 
 /// A normal on the cone of the largest angle around the given one, up to 1e-6.
@@ -35,12 +32,12 @@ TEST_CASE("Normal trees: the nearest volume is that among all, also at the large
     Uniforms random(4);
     for (const std::uint32_t count : {0u, 1u, 5u, 40u, 300u}) {
         const std::vector<KdNode> nodes = random_nodes(count, random);
-        NormalTrees trees(all_of(nodes).nodes);
+        NormalTrees trees(view_of(nodes));
         bool is_same = true;
         const auto compare = [&](Vec3f normal) {
             const Vec3f position = random.direction();
             const std::int32_t found = find_volume(trees.tree_of(NormalTrees::cell_of(normal)), position, normal);
-            is_same = is_same && found == find_volume(all_of(nodes), position, normal);
+            is_same = is_same && found == find_volume_by_all(view_of(nodes), position, normal);
             if (found != kNoVolume)
                 is_same =
                     is_same && trees.node_of(static_cast<std::uint32_t>(found)) == static_cast<std::uint32_t>(found);
@@ -60,14 +57,14 @@ TEST_CASE("Normal trees: the nearest volume is that among all, also at the large
 TEST_CASE("Normal trees leave out most volumes of a ball") {
     Uniforms random(5);
     const std::vector<KdNode> nodes = random_nodes(2000, random);
-    NormalTrees trees(all_of(nodes).nodes);
+    NormalTrees trees(view_of(nodes));
     for (int i = 0; i < 100; ++i) CHECK(trees.tree_of(NormalTrees::cell_of(random.direction())).nodes.count < 600);
 }
 
 TEST_CASE("Normal trees are the same for several threads that ask at once") {
     Uniforms random(6);
     const std::vector<KdNode> nodes = random_nodes(500, random);
-    NormalTrees trees(all_of(nodes).nodes);
+    NormalTrees trees(view_of(nodes));
     const KdNode* first[2][6] = {};
     const auto ask = [&](int thread) {
         for (int i = 0; i < 6; ++i) {

@@ -9,6 +9,7 @@
 #include "core/kernel/guiding/update_volume.h"
 #include "tests/core/fields/lit_room.h"
 #include "tests/support/catch.hpp"
+#include "tests/support/field/linear_search.h"
 #include "tests/support/rays/walk.h"
 
 using namespace pl;
@@ -189,23 +190,19 @@ TEST_CASE("No more volumes than requested, and none beyond the budget") {
     CHECK(most_refined_volumes(settings, 1000) == 2000);
 }
 
-TEST_CASE("All lookups find the same volumes of a refined placement") {
+TEST_CASE("Tree and grid find the volumes of a linear search in a refined placement") {
     Learned field(lit_room(), 200);
     for (std::size_t i = 0; i < field.count(); i += 2) field.teach(i, 100, true);
     field.take(field.refine(150));
     REQUIRE(field.count() == 350);
     field.volumes.grid = build_volume_grid(field.scene, field.volumes, 2);
-    const KdTreeView all{view_of(std::as_const(field.volumes.kd_nodes)), Lookup::Linear};
-    KdTreeView tree = all;
-    KdTreeView grid = all;
-    tree.lookup = Lookup::KdTree;
-    grid.lookup = Lookup::Grid;
+    const KdTreeView tree{view_of(std::as_const(field.volumes.kd_nodes))};
     std::size_t points = 0;
     for_each_site(field.source(), 20, [&](const SurfacePoint& point) {
-        const std::int32_t expected = find_volume(all, point.position, point.geometric_normal);
+        const std::int32_t expected = find_volume_by_all(tree.nodes, point.position, point.geometric_normal);
         REQUIRE(expected != kNoVolume);
         REQUIRE(find_volume(tree, point.position, point.geometric_normal) == expected);
-        REQUIRE(find_volume(grid, grid_view(field.volumes.grid), point).volume == expected);
+        REQUIRE(find_volume(tree, grid_view(field.volumes.grid), point).volume == expected);
         ++points;
     });
     CHECK(points >= 20 * 200);

@@ -172,7 +172,6 @@ TEST_CASE("An SD-tree divides quadrants by their share of the energy, and joins 
         }
         tree.update();
     };
-    tree.shape.rate = LearningRate::Floor;
     for (int i = 0; i < 3; ++i) train({0.0f, 0.6f, 0.8f});
     const auto slot_towards = [&](Vec3f wi) {
         const SdTreeField field = tree.view();
@@ -187,22 +186,6 @@ TEST_CASE("An SD-tree divides quadrants by their share of the energy, and joins 
     for (int i = 0; i < 60; ++i) train({0.0f, -0.6f, -0.8f});
     CHECK(slot_towards({0.0f, 0.6f, 0.8f}).depth < sharp);
     CHECK(slot_towards({0.0f, -0.6f, -0.8f}).depth > slot_towards({0.0f, 0.6f, 0.8f}).depth);
-}
-
-TEST_CASE("Iterations of an SD-tree double in length, and each replaces the one before") {
-    TestTree tree;
-    tree.shape.iterations = Iterations::Doubling;
-    std::vector<std::uint64_t> lengths;
-    for (int update = 0; update < 15; ++update) {
-        for (const HandSample& sample : hand_samples(1000, static_cast<std::uint64_t>(update))) tree.record(sample);
-        const HostSdTree before = tree.tree;
-        tree.update();
-        const bool waits = sum(tree.tree.pending_count) > 0;
-        CHECK((tree.tree.energy == before.energy) == waits);
-        CHECK(tree.tree.pending_samples[0] == 0);  // volumes are updated always
-        if (!waits) lengths.push_back(sum(tree.tree.visits));
-    }
-    CHECK(lengths == std::vector<std::uint64_t>{1000, 2000, 4000, 8000});
 }
 
 TEST_CASE("An SD-tree keeps its bound of nodes") {

@@ -10,6 +10,7 @@
 #include "core/kernel/geometry/intersector.h"
 #include "core/kernel/shading/lambert.h"
 #include "tests/support/catch.hpp"
+#include "tests/support/field/linear_search.h"
 #include "tests/support/rays/walk.h"
 
 using namespace pl;
@@ -21,15 +22,15 @@ struct Placed {
     HostScene scene;
     HostVolumes volumes;
 
-    KdTreeView tree(Lookup lookup) const { return {view_of(volumes.kd_nodes), lookup}; }
+    KdTreeView tree() const { return {view_of(volumes.kd_nodes)}; }
     std::int32_t by_grid(const SurfacePoint& point) const {
-        const FoundVolume found = find_volume(tree(Lookup::Grid), grid_view(volumes.grid), point);
+        const FoundVolume found = find_volume(tree(), grid_view(volumes.grid), point);
         if (found.node != FoundVolume::kUnknown)
             REQUIRE(static_cast<std::int32_t>(volumes.kd_nodes[found.node].volume) == found.volume);
         return found.volume;
     }
     std::int32_t by_all(const SurfacePoint& point) const {
-        return find_volume(tree(Lookup::Linear), point.position, point.geometric_normal);
+        return find_volume_by_all(view_of(volumes.kd_nodes), point.position, point.geometric_normal);
     }
     VolumePlace place_of(const SurfacePoint& point) const {
         return grid_view(volumes.grid).place_of(point.primitive, point.front, point.position);
@@ -318,7 +319,7 @@ TEST_CASE("Points beside their triangle, not finite, or of no triangle are answe
     SurfacePoint point = on_triangle(placed.scene, 0, random);
     point.primitive = kNoPrimitive;
     CHECK(placed.by_grid(point) == placed.by_all(point));
-    CHECK(find_volume(placed.tree(Lookup::Grid), {}, point).volume == placed.by_all(point));
+    CHECK(find_volume(placed.tree(), {}, point).volume == placed.by_all(point));
 }
 
 TEST_CASE("Without volumes grids find none") {

@@ -28,7 +28,7 @@ TEST_CASE("A misspelt word is near the one that was meant") {
              {"--jsn", "--json"},
              {"voroni", "voronoi"},
              {"Voronoi", "voronoi"},
-             {"kd-tree", "kdtree"},
+             {"sdtree", "sd-tree"},
              {"CPU", "cpu"},
              {"Z", "z"},
              {"means", "mean"},

@@ -24,8 +24,6 @@ struct Variant {
 
 inline constexpr Variant kVariants[] = {
     {"rate mean", false, LearningRate::SampleMean},
-    {"rate power", false, LearningRate::Power},
-    {"rate floor", false, LearningRate::Floor},
     {"Sarsa", false, LearningRate::Forgetful, {LearningTarget::Sarsa, LearnedLight::All}},
     {"Monte Carlo", false, LearningRate::Forgetful, {LearningTarget::MonteCarlo, LearnedLight::All}},
     {"Sarsa, light samples", true, LearningRate::Forgetful, {LearningTarget::Sarsa, LearnedLight::All}},

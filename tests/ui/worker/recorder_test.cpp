@@ -4,6 +4,7 @@
 
 #include "tests/support/catch.hpp"
 #include "tests/ui/worker/session_bench.h"
+#include "tests/ui/worker_bench.h"
 
 using namespace pl;
 using namespace pl::test;
@@ -39,6 +40,18 @@ TEST_CASE("Recorder: a run carries the settings that differ from the defaults, i
         return recorder.observe(bench.session, kLearning) && !recorder.runs()->runs.empty();
     }));
     CHECK(recorder.runs()->runs.front()->label.details == "16 volumes, 16 bins, not refined");
+}
+
+TEST_CASE("Recorder: a run says that effects were forced") {
+    Bench bench;
+    bench.control->pass_microseconds = 200;
+    WorkerSetup setup = bench.setup();
+    setup.settings.forced_effects = kEveryFeature;
+    RenderWorker worker(std::move(setup));
+    CHECK(eventually([&] {
+        const auto runs = worker.runs()->runs;
+        return runs.size() == 1 && runs[0]->label.details == "effects forced";
+    }));
 }
 
 TEST_CASE("Recorder: a bad reference is refused once, and kept as the one that was asked for") {

@@ -113,10 +113,9 @@ TEST_CASE("Validity of radiance and small helpers at the edges of float") {
     CHECK(clamp_to(-2.0f, 0.0f, 1.0f) == 0.0f);
 }
 
-TEST_CASE("Logarithm, exponential and power are as exact as they promise") {
+TEST_CASE("Logarithm and exponential are as exact as they promise") {
     CHECK(log_of(1.0f) == 0.0f);
     CHECK(exp_of(0.0f) == 1.0f);
-    CHECK(power(1.0f, 0.7f) == 1.0f);
     for (float x = 1.2e-38f; x < 1e38f; x *= 1.0037f) {
         const double exact = std::log(static_cast<double>(x));
         REQUIRE(std::fabs(static_cast<double>(log_of(x)) - exact) <= 2e-7 * (1.0 + std::fabs(exact)));
@@ -124,14 +123,6 @@ TEST_CASE("Logarithm, exponential and power are as exact as they promise") {
     for (float x = 87.0f; x >= -87.0f; x -= 0.0011f) {
         const double exact = std::exp(static_cast<double>(x));
         REQUIRE(std::fabs(static_cast<double>(exp_of(x)) / exact - 1.0) <= 1e-6);
-    }
-    float last = 0.0f;
-    for (float x = 2.4e-10f; x <= 1.0f; x *= 1.01f) {
-        const float now = power(x, 0.7f);
-        REQUIRE(now > last);
-        last = now;
-        REQUIRE(std::fabs(static_cast<double>(now) / std::pow(static_cast<double>(x), static_cast<double>(0.7f)) -
-                          1.0) <= 4e-6);
     }
 }
 

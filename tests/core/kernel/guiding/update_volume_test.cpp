@@ -9,8 +9,7 @@ using namespace pl::test;
 
 namespace {
 
-constexpr LearningRate kRates[] = {LearningRate::SampleMean, LearningRate::Power, LearningRate::Floor,
-                                   LearningRate::Forgetful};
+constexpr LearningRate kRates[] = {LearningRate::SampleMean, LearningRate::Forgetful};
 
 /// Updates the field twice, the second time without new training samples.
 bool is_changed_by_second_update(TestField& field) {

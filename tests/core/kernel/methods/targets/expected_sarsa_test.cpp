@@ -1,6 +1,8 @@
 // The fixed point of Expected Sarsa with light samples, on two cases solved by hand.
 #include "core/kernel/methods/targets/expected_sarsa.h"
 
+#include <algorithm>
+
 #include "core/kernel/guiding/update_volume.h"
 #include "core/kernel/shading/lights.h"
 #include "tests/support/catch.hpp"
@@ -30,7 +32,7 @@ std::pair<float, float> learned_shares(float lamp_radiance, float sky_radiance) 
     constexpr std::uint32_t kVisits = 1000000;  // so that the prior of the volume's mean vanishes
     TestField field(kSide, {Vec3f{0, 0, 1}});
     field.shape.uniform_floor = 0.0f;
-    field.shape.rate = LearningRate::Floor;
+    field.shape.rate = LearningRate::SampleMean;
     field.update();
     const auto train = [&](std::size_t cell, float emitted, float light_pdf) {
         const float weight = balance_weight(share_of(field.tables, cell), light_pdf);
@@ -38,6 +40,7 @@ std::pair<float, float> learned_shares(float lamp_radiance, float sky_radiance) 
         field.tables.pending_count[cell] = kVisits;
     };
     for (int update = 0; update < 400; ++update) {
+        std::ranges::fill(field.tables.visits, 19 * kVisits);  // a step of 1/20, with which shares settle
         for (std::size_t cell = 0; cell < kSide * kSide; ++cell) train(cell, 0.0f, 0.0f);
         train(kLamp, lamp_radiance, 1.0f);
         train(kSky, sky_radiance, 0.0f);

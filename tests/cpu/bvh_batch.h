@@ -1,10 +1,10 @@
-// The scene's BVH as a batch intersector: traverses it ray by ray.
+// The scene's two-wide hierarchy as a batch intersector: traverses it ray by ray. A peer of those of the back end.
 #pragma once
 
 #include "core/kernel/geometry/intersector.h"
 #include "cpu/ray_batch.h"
 
-namespace pl {
+namespace pl::test {
 
 /// Satisfies BatchIntersector.
 class BvhBatch {
@@ -18,12 +18,9 @@ public:
         for (std::uint32_t i = 0; i < count; ++i) batch.set_occluded(i, intersector_.occluded(batch.ray(i)));
     }
 
-    /// See BatchTracer.
-    void move_to(const SceneView& scene) { intersector_ = BvhIntersector{scene}; }
-
 private:
     BvhIntersector intersector_;
 };
 static_assert(BatchIntersector<BvhBatch>);
 
-}  // namespace pl
+}  // namespace pl::test
