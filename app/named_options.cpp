@@ -27,8 +27,7 @@ constexpr std::array kRates{
     Named<LearningRate>{LearningRate::Power, "power"}, Named<LearningRate>{LearningRate::Floor, "floor"}};
 constexpr std::array kRepresentations{
     Named<Representation>{Representation::Table, "table"}, Named<Representation>{Representation::SdTree, "sd-tree"},
-    Named<Representation>{Representation::Lobes, "lobes"}, Named<Representation>{Representation::Neural, "neural"},
-    Named<Representation>{Representation::NeuralVertex, "neural-vertex"}};
+    Named<Representation>{Representation::Lobes, "lobes"}, Named<Representation>{Representation::Neural, "neural"}};
 constexpr std::array kIterations{Named<Iterations>{Iterations::Updates, "updates"},
                                  Named<Iterations>{Iterations::Doubling, "doubling"}};
 constexpr std::array kTargets{Named<LearningTarget>{LearningTarget::ExpectedSarsa, "expected-sarsa"},

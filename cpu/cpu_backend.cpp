@@ -20,7 +20,6 @@
 #include "cpu/launchers.h"
 #include "cpu/neural_kernels.h"
 #include "cpu/neural_update.h"
-#include "cpu/neural_vertex_update.h"
 #include "cpu/parallel_for.h"
 #include "cpu/view_pass.h"
 #include "cpu/volume_update.h"
@@ -175,10 +174,6 @@ private:
         update(static_cast<HostTables&>(field), is_updated);
         update_network(shape_, *volumes_, field, settings_.threads);
     }
-    void update(HostNeuralVertex& field, bool is_updated) const {
-        update(static_cast<HostTables&>(field), is_updated);
-        update_vertex_network(shape_, *volumes_, field, settings_.threads);
-    }
 
     StoredField& existing_field(MethodId method) {
         std::optional<StoredField>& field = fields_[index_of(method)];
@@ -191,7 +186,7 @@ private:
         AnyFieldView field = field_view(shape_, *volumes_, existing_field(method).arrays);
         visit_field(field, [&](auto& view) {
             view.writers = settings_.threads == 1 ? Writers::One : Writers::Many;
-            if constexpr (std::is_same_v<std::remove_cvref_t<decltype(view)>, NeuralVertexField>)
+            if constexpr (std::is_same_v<std::remove_cvref_t<decltype(view)>, NeuralField>)
                 view.evaluate = best_neural_kernels().evaluate_vertex;
         });
         return field;

@@ -24,16 +24,6 @@ struct MatrixProduct {
     bool adds;
 };
 
-/// The learned sums of the cells of one volume, and the predictions of the network for them. Arrays of `columns` values; those behind
-/// the cells have no visits and are no cells.
-struct VolumeLight {
-    const float* visits;      ///< as weights
-    const float* radiance;    ///< learned, in units of the mean of all volumes
-    const float* is_cell;     ///< 1 or 0
-    const float* logarithms;  ///< of the predicted radiance in these units
-    std::uint32_t columns;
-};
-
 /// The light of one volume in directions of its cells, and the mixture that learns it. Component k has the density exp(offset_k + axis_k
 /// w) over directions w, not normalized. Arrays of directions: [column]; those behind the cells have no probability.
 struct MixtureLight {
@@ -68,13 +58,6 @@ struct DescentStep {
 struct NeuralKernels {
     const char* isa;
     void (*multiply)(const MatrixProduct& product);
-    /// The loss of a volume times `scale`, and its slopes by the logarithms. [column]
-    float (*slopes)(const VolumeLight& light, float scale, float* slopes);
-    /// Radiance of each cell predicted by the network, scaled to the learned radiance of the volume's cells. [column] False if any is not
-    /// finite.
-    bool (*predict)(const VolumeLight& light, float* predicted);
-    /// Unnormalized probabilities of side x side cells: their learned radiance with `predicted` as the prior.
-    void (*weigh)(const VolumeLight& light, const float* predicted, std::uint32_t side, float* weights);
     void (*descend)(const DescentStep& step);
     /// Fills `shares`. Returns the expected logarithm of the density of all components together.
     float (*attribute)(const MixtureLight& light, MixtureShares& shares);

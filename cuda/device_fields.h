@@ -14,8 +14,8 @@
 
 namespace pl::cuda {
 
-/// Tables are updated on the device; the networks of neural fields are taught by the host between passes, as the CPU back end teaches
-/// them, so that both have the same bits.
+/// Tables are updated on the device; the network of a neural field is taught by the host between passes, as the CPU back end teaches it,
+/// so that both have the same bits.
 class DeviceFields {
 public:
     explicit DeviceFields(const Stream& stream) : stream_(stream) {}
@@ -53,7 +53,6 @@ private:
     static Tables& tables_of(Arrays& arrays);
 
     StoredField& existing(MethodId method);
-    void store(StoredField& stored, const HostField& field);
     void teach_network(MethodId method);
     void gather_records(StoredField& stored);
     Span<const float> volume_values(const FilmSlot& slot);
