@@ -35,7 +35,7 @@ std::uint32_t NetworkDescent::volume_in_turn(std::uint64_t n) const {
 }
 
 bool NetworkDescent::step(const Teach& teach) {
-    const Network network(best_neural_kernels(), field_.weights.data());
+    const Network network(best_lane_kernels(), field_.weights.data());
     const std::uint64_t first = std::uint64_t{field_.counts[kNetworkSteps]} * settings_.batch;
     const std::uint32_t taken = std::min(settings_.batch, count_);
     std::vector<std::uint32_t> batch(taken);
@@ -76,9 +76,9 @@ void NetworkDescent::move_weights(const std::vector<float>& slopes) {
     const double steps = ++field_.counts[kNetworkSteps];
     const double mean_scale = 1.0 / (1.0 - std::pow(double{kMeanShare}, steps));
     const double rate = settings_.rate / std::sqrt(1.0 + steps / settings_.decay);
-    best_neural_kernels().descend({field_.weights.data(), field_.slope_mean.data(), field_.slope_square.data(),
-                                   slopes.data(), kNetworkWeights, static_cast<float>(rate * mean_scale),
-                                   static_cast<float>(1.0 / (1.0 - std::pow(double{kSquareShare}, steps)))});
+    best_lane_kernels().descend({field_.weights.data(), field_.slope_mean.data(), field_.slope_square.data(),
+                                 slopes.data(), kNetworkWeights, static_cast<float>(rate * mean_scale),
+                                 static_cast<float>(1.0 / (1.0 - std::pow(double{kSquareShare}, steps)))});
 }
 
 }  // namespace pl

@@ -1,9 +1,9 @@
-// Implementation of the neural kernels; see cpu/lanes.h. Elements are lanes and every sum has an order of its own, so that the
+// Loops of the network of neural fields over SIMD lanes; see cpu/lanes.h. Elements are lanes and every sum has an order of its own, so that the
 // width of vectors changes no bit.
 #pragma once
 
 #include "cpu/lanes.h"
-#include "cpu/neural_kernels.h"
+#include "cpu/neural_rows.h"
 
 namespace pl {
 namespace {
@@ -147,10 +147,6 @@ float attribute(const MixtureLight& light, MixtureShares& shares) {
 /// Of this file alone, which a template of the header is not.
 void evaluate_in_lanes(const float* weights, const float* inputs, float* outputs) {
     evaluate_vertex<LaneFloat>(weights, inputs, outputs);
-}
-
-constexpr NeuralKernels neural_kernels_named(const char* isa) {
-    return {isa, multiply, descend, attribute, evaluate_in_lanes};
 }
 
 }  // namespace

@@ -27,7 +27,7 @@ std::vector<float> turned(const float* layer, std::uint32_t inputs, std::uint32_
 
 }  // namespace
 
-Network::Network(const NeuralKernels& kernels, const float* weights)
+Network::Network(const LaneKernels& kernels, const float* weights)
     : kernels_(kernels), weights_(weights), first_turned_(turned(weights + kFirstLayer, kInputs, kHiddenUnits)),
       second_turned_(turned(weights + kSecondLayer, kHiddenUnits, kHiddenUnits)),
       last_turned_(turned(weights + kLastLayer, kHiddenUnits, kOutputColumns)) {}

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/kernel/guiding/network_inputs.h"
-#include "cpu/neural_kernels.h"
+#include "cpu/lane_kernels.h"
 
 namespace pl {
 
@@ -29,7 +29,7 @@ private:
 class Network {
 public:
     /// Weights as in network_layout.h. `kernels` and `weights` outlive it.
-    Network(const NeuralKernels& kernels, const float* weights);
+    Network(const LaneKernels& kernels, const float* weights);
 
     /// Fills the block's units for these points, at most kNetworkBlock of them.
     void predict(std::span<const NetworkPoint> points, NetworkBlock& block) const;
@@ -42,7 +42,7 @@ public:
     void add_feature_slopes(std::span<const NetworkPoint> points, const NetworkBlock& block, float* slopes) const;
 
 private:
-    const NeuralKernels& kernels_;
+    const LaneKernels& kernels_;
     const float* weights_;
     std::vector<float> first_turned_, second_turned_, last_turned_;  ///< the layers, [unit][input]
 };

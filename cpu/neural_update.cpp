@@ -94,7 +94,7 @@ private:
                 probability.data(), directions_.x.data(),        directions_.y.data(), directions_.z.data(),
                 columns_,           volumes_.normals[volumes[i]]};
             const std::size_t row = i * kOutputColumns;
-            loss += weight * mixture_slopes(best_neural_kernels(), light, block.outputs.data() + row, weight,
+            loss += weight * mixture_slopes(best_lane_kernels(), light, block.outputs.data() + row, weight,
                                             block.output_slopes.data() + row);
         }
         return loss;

@@ -27,7 +27,7 @@ void DeviceFields::upload(MethodId method, const HostField& field) {
     StoredField uploaded;
     zip_fields(field, uploaded.arrays, [&](const auto& from, auto& to) { to.upload(from, stream_); });
     gather_records(uploaded);
-    uploaded.network = network_status_of(field);
+    uploaded.report = report_of(field);
     stream_.wait("uploading a field");
     stored_[index_of(method)] = std::move(uploaded);
 }
@@ -41,17 +41,8 @@ HostField DeviceFields::download(MethodId method) const {
     return field;
 }
 
-std::size_t DeviceFields::bytes(MethodId method) const {
-    std::size_t sum = 0;
-    HostField sizes;
-    if (has(method))
-        zip_fields(stored_[index_of(method)]->arrays, sizes,
-                   [&](const auto& array, const auto&) { sum += array.bytes(); });
-    return sum;
-}
-
-std::optional<NetworkStatus> DeviceFields::network_status(MethodId method) const {
-    return has(method) ? stored_[index_of(method)]->network : std::nullopt;
+FieldReport DeviceFields::report(MethodId method) const {
+    return has(method) ? stored_[index_of(method)]->report : FieldReport{};
 }
 
 void DeviceFields::change_pending(MethodId method, const std::function<void(PendingSums)>& change) {
@@ -75,7 +66,7 @@ void DeviceFields::update(MethodId method) {
         if (step.item == UpdateItem::Row) count *= static_cast<std::uint32_t>(field.cells.side);
         launch(step.kernel, one_thread_each(count), stream_, step.name, field, count);
     }
-    if (stored.network) return teach_network(method);
+    if (stored.report.network) return teach_network(method);
     gather_records(stored);
     stream_.wait("updating a field");
 }
@@ -88,7 +79,7 @@ void DeviceFields::teach_network(MethodId method) {
     update_network(shape_, *host_volumes_, neural, usable_threads());
     auto& arrays = std::get<NeuralStorage<DeviceArray>>(stored.arrays);
     for_each_network_array([&](const auto& spec) { spec.get(arrays).upload(spec.get(neural), stream_); });
-    stored.network = status_of(neural);
+    stored.report.network = status_of(neural);
     gather_records(stored);
     stream_.wait("updating a network");
 }

@@ -27,8 +27,7 @@ public:
     /// Empty arrays if the method has no field.
     HostField download(MethodId method) const;
     bool has(MethodId method) const { return stored_[index_of(method)].has_value(); }
-    std::size_t bytes(MethodId method) const;
-    std::optional<NetworkStatus> network_status(MethodId method) const;
+    FieldReport report(MethodId method) const;
 
     /// The following functions throw Error(Runtime) if the method has no field.
     void change_pending(MethodId method, const std::function<void(PendingSums)>& change);
@@ -46,7 +45,7 @@ private:
     struct StoredField {
         Arrays arrays;
         DeviceArray<VolumeRecord> records;
-        std::optional<NetworkStatus> network;  ///< since the last update
+        FieldReport report;  ///< since the last update
     };
 
     static std::size_t index_of(MethodId method) { return static_cast<std::size_t>(method); }

@@ -55,10 +55,15 @@ inline std::size_t field_bytes(const HostField& field) {
     return std::visit([](const auto& arrays) { return field_bytes(arrays); }, field);
 }
 
-/// Of a field without a network: none.
-inline std::optional<NetworkStatus> network_status_of(const HostField& field) {
+/// What is told of a field without its arrays.
+struct FieldReport {
+    std::size_t bytes = 0;                   ///< of its arrays
+    std::optional<NetworkStatus> network{};  ///< of a neural field
+};
+inline FieldReport report_of(const HostField& field) {
     const auto* neural = std::get_if<HostNeural>(&field);
-    return neural != nullptr ? std::optional(status_of(*neural)) : std::nullopt;
+    return {.bytes = field_bytes(field),
+            .network = neural != nullptr ? std::optional(status_of(*neural)) : std::nullopt};
 }
 
 /// Calls fn(array of `from`, array of `to`) for every array, after `to` has got the representation of `from`.

@@ -71,7 +71,7 @@ struct RandomLight {
 };
 
 /// All that the kernels of one instruction set compute of random numbers.
-std::vector<float> results_of(const NeuralKernels& kernels) {
+std::vector<float> results_of(const LaneKernels& kernels) {
     const RandomLight random;
     const std::vector<float> weights = random_values(kNetworkWeights, -0.3f, 0.3f, 1);
     const std::vector<float> inputs = random_values(kInputs, -1.0f, 1.0f, 2);
@@ -121,8 +121,8 @@ std::vector<SurfacePoint> points_between() {
 }  // namespace
 
 TEST_CASE("Every instruction set computes the same bits of a network") {
-    const std::vector<float> expected = results_of(usable_neural_kernels().front());
-    for (const NeuralKernels& kernels : usable_neural_kernels()) {
+    const std::vector<float> expected = results_of(usable_lane_kernels().front());
+    for (const LaneKernels& kernels : usable_lane_kernels()) {
         INFO(kernels.isa);
         CHECK(results_of(kernels) == expected);
     }
@@ -134,9 +134,9 @@ TEST_CASE("A network asked for one vertex, with vectors or without, and for a bl
     float inputs[kInputs], alone[kVertexColumns], in_lanes[kVertexColumns];
     fill_inputs(point, weights.data(), inputs);
     evaluate_vertex_network(weights.data(), inputs, alone);
-    best_neural_kernels().evaluate_vertex(weights.data(), inputs, in_lanes);
+    best_lane_kernels().evaluate_vertex(weights.data(), inputs, in_lanes);
     NetworkBlock block;
-    Network(best_neural_kernels(), weights.data()).predict(std::span(&point, 1), block);
+    Network(best_lane_kernels(), weights.data()).predict(std::span(&point, 1), block);
     for (std::uint32_t i = 0; i < kVertexOutputs; ++i) {
         CHECK(alone[i] == in_lanes[i]);
         CHECK(alone[i] == block.outputs[i]);
@@ -153,13 +153,13 @@ TEST_CASE("The slopes of a network are those of its loss by finite differences")
         points.push_back({{random.next(), random.next(), random.next()}, square_to_sphere(random.square())});
     const auto loss = [&](const std::vector<float>& moved) {
         NetworkBlock block;
-        Network(best_neural_kernels(), moved.data()).predict(points, block);
+        Network(best_lane_kernels(), moved.data()).predict(points, block);
         double sum = 0.0;
         for (std::size_t i = 0; i < points.size() * kOutputColumns; ++i)
             sum += 0.5 * static_cast<double>(block.outputs[i]) * static_cast<double>(block.outputs[i]);
         return sum;
     };
-    const Network network(best_neural_kernels(), weights.data());
+    const Network network(best_lane_kernels(), weights.data());
     NetworkBlock block;
     network.predict(points, block);
     std::copy_n(block.outputs.begin(), points.size() * kOutputColumns, block.output_slopes.begin());
@@ -189,7 +189,7 @@ TEST_CASE("The slopes of a mixture are those of its loss by finite differences")
     for (std::uint64_t seed = 1; seed <= 4; ++seed) {
         const std::vector<float> outputs = random_values(kVertexColumns, -1.5f, 1.5f, seed);
         std::vector<float> slopes(kVertexOutputs);
-        const float loss = mixture_slopes(best_neural_kernels(), random.light(), outputs.data(), 1.0f, slopes.data());
+        const float loss = mixture_slopes(best_lane_kernels(), random.light(), outputs.data(), 1.0f, slopes.data());
         CHECK(static_cast<double>(loss) == Approx(random.loss(outputs)).epsilon(1e-4));
         for (std::uint32_t i = 0; i < kVertexOutputs; ++i) {
             constexpr float kStep = 1.0f / 256.0f;
@@ -211,7 +211,7 @@ TEST_CASE("Lobes stay within the bounds of their concentration, and come back") 
         for (std::uint32_t k = 0; k < kVertexLobes; ++k) outputs[kLobeNarrowness * kVertexLobes + k] = narrowness;
         const float kappa = vertex_lobe(outputs_of(outputs.data(), 0), random.normal, 0).kappa;
         CHECK(kappa == Approx(std::exp(narrowness > 0.0f ? kMostNarrowness : kLeastNarrowness)));
-        mixture_slopes(best_neural_kernels(), random.light(), outputs.data(), 1.0f, slopes.data());
+        mixture_slopes(best_lane_kernels(), random.light(), outputs.data(), 1.0f, slopes.data());
         for (std::uint32_t k = 0; k < kVertexLobes; ++k)
             CHECK(slopes[kLobeNarrowness * kVertexLobes + k] * narrowness >= 0.0f);
     }

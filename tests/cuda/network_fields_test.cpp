@@ -52,7 +52,7 @@ TEST_CASE("A network that is lost guides by the cosine on both back ends") {
         std::get<HostNeural>(field).weights[kLastLayer] = std::numeric_limits<float>::quiet_NaN();
         backend.upload_field(MethodId::Reinforcement, std::move(field));
         render_passes(session, 2);
-        CHECK(backend.network_status(MethodId::Reinforcement)->is_lost);
+        CHECK(backend.field_report(MethodId::Reinforcement).network->is_lost);
         return state_of(session);
     };
     CHECK(same_state(render_lost(make_cuda_session(scene, settings)), render_lost(make_session(scene, settings))));

@@ -1,10 +1,8 @@
-// The loops of the update of a neural field, compiled once per instruction set with bit-identical results. Plain pointers, see
-// cpu/lane_kernels.h.
+// What lane kernels work on in the update of a neural field.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
-#include <span>
 
 #include "core/kernel/guiding/vertex_network.h"
 
@@ -54,23 +52,5 @@ struct DescentStep {
     float rate;          ///< with the correction of both means for their start at 0
     float square_scale;  ///< of the square's
 };
-
-struct NeuralKernels {
-    const char* isa;
-    void (*multiply)(const MatrixProduct& product);
-    void (*descend)(const DescentStep& step);
-    /// Fills `shares`. Returns the expected logarithm of the density of all components together.
-    float (*attribute)(const MixtureLight& light, MixtureShares& shares);
-    VertexEvaluator evaluate_vertex;
-};
-
-extern const NeuralKernels kNeuralKernelsBaseline;
-extern const NeuralKernels kNeuralKernelsAvx2;    ///< only in builds with PL_LANE_CLONES
-extern const NeuralKernels kNeuralKernelsAvx512;  ///< only in builds with PL_LANE_CLONES
-
-/// Kernels in this build that the machine supports, widest vectors last.
-std::span<const NeuralKernels> usable_neural_kernels();
-
-inline const NeuralKernels& best_neural_kernels() { return usable_neural_kernels().back(); }
 
 }  // namespace pl
