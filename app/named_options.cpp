@@ -24,8 +24,7 @@ constexpr std::array kRates{Named<LearningRate>{LearningRate::SampleMean, "mean"
                             Named<LearningRate>{LearningRate::Forgetful, "forgetful"}};
 constexpr std::array kRepresentations{
     Named<Representation>{Representation::Table, "table"}, Named<Representation>{Representation::SdTree, "sd-tree"},
-    Named<Representation>{Representation::Lobes, "lobes"}, Named<Representation>{Representation::Neural, "neural"},
-    Named<Representation>{Representation::NeuralVertex, "neural-vertex"}};
+    Named<Representation>{Representation::Lobes, "lobes"}, Named<Representation>{Representation::Neural, "neural"}};
 constexpr std::array kTargets{Named<LearningTarget>{LearningTarget::ExpectedSarsa, "expected-sarsa"},
                               Named<LearningTarget>{LearningTarget::Sarsa, "sarsa"},
                               Named<LearningTarget>{LearningTarget::MonteCarlo, "monte-carlo"}};

@@ -107,10 +107,7 @@ void report(const Snapshot& snapshot, const Options& options, const Json& stats,
         console.log().warning(fmt::format("{} paths escaped although closed surfaces surround the camera",
                                           snapshot.counters.path.escaped));
     if (snapshot.field && snapshot.field->network && snapshot.field->network->is_lost)
-        console.log().warning(fmt::format("the network of the field was not finite: {}",
-                                          snapshot.field->representation == Representation::NeuralVertex
-                                              ? "paths are guided by the cosine"
-                                              : "its tables are sampled without it"));
+        console.log().warning("the network of the field was not finite: paths are guided by the cosine");
 }
 
 /// run_passes() with a last checkpoint. An error on the way, such as a rank that has died, names the checkpoint to go on from.

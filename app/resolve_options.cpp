@@ -133,9 +133,8 @@ void settle_representation(Options& options) {
                     fmt::format("--field {}: expected --field table with --method {}, whose probes fill tables", name,
                                 info_of(options.render.method).name));
     if (!has_target(field.representation, field.learning.target))
-        throw Error(ErrorKind::Usage,
-                    fmt::format("--learn-target {}: expected --field table or neural with it, got --field {}",
-                                name_of(field.learning.target), name));
+        throw Error(ErrorKind::Usage, fmt::format("--learn-target {}: expected --field table with it, got --field {}",
+                                                  name_of(field.learning.target), name));
     if (has_tables(field.representation)) return;
     const auto is_cuda = [](const std::string& backend) { return backend == "cuda"; };
     if (is_cuda(options.backend) || std::ranges::any_of(options.backends, is_cuda))

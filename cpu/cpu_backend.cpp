@@ -17,10 +17,9 @@
 #include "cpu/device_name.h"
 #include "cpu/emission_pass.h"
 #include "cpu/film_store.h"
+#include "cpu/lane_kernels.h"
 #include "cpu/launchers.h"
-#include "cpu/neural_kernels.h"
 #include "cpu/neural_update.h"
-#include "cpu/neural_vertex_update.h"
 #include "cpu/parallel_for.h"
 #include "cpu/view_pass.h"
 #include "cpu/volume_update.h"
@@ -80,13 +79,9 @@ public:
         return field ? field->arrays : HostField{};
     }
     bool has_field(MethodId method) const override { return fields_[index_of(method)].has_value(); }
-    std::size_t field_bytes(MethodId method) const override {
+    FieldReport field_report(MethodId method) const override {
         const std::optional<StoredField>& field = fields_[index_of(method)];
-        return field ? pl::field_bytes(field->arrays) : 0;
-    }
-    std::optional<NetworkStatus> network_status(MethodId method) const override {
-        const std::optional<StoredField>& field = fields_[index_of(method)];
-        return field ? network_status_of(field->arrays) : std::nullopt;
+        return field ? report_of(field->arrays) : FieldReport{};
     }
 
     void reset_film(FilmSlot slot, int width, int height) override {
@@ -175,10 +170,6 @@ private:
         update(static_cast<HostTables&>(field), is_updated);
         update_network(shape_, *volumes_, field, settings_.threads);
     }
-    void update(HostNeuralVertex& field, bool is_updated) const {
-        update(static_cast<HostTables&>(field), is_updated);
-        update_vertex_network(shape_, *volumes_, field, settings_.threads);
-    }
 
     StoredField& existing_field(MethodId method) {
         std::optional<StoredField>& field = fields_[index_of(method)];
@@ -191,8 +182,8 @@ private:
         AnyFieldView field = field_view(shape_, *volumes_, existing_field(method).arrays);
         visit_field(field, [&](auto& view) {
             view.writers = settings_.threads == 1 ? Writers::One : Writers::Many;
-            if constexpr (std::is_same_v<std::remove_cvref_t<decltype(view)>, NeuralVertexField>)
-                view.evaluate = best_neural_kernels().evaluate_vertex;
+            if constexpr (std::is_same_v<std::remove_cvref_t<decltype(view)>, NeuralField>)
+                view.evaluate = best_lane_kernels().evaluate_vertex;
         });
         return field;
     }

@@ -3,7 +3,9 @@
 
 #include <span>
 
+#include "core/kernel/guiding/vertex_network.h"
 #include "cpu/lane_groups.h"
+#include "cpu/neural_rows.h"
 #include "cpu/path_groups.h"
 #include "cpu/table_groups.h"
 
@@ -109,6 +111,12 @@ struct LaneKernels {
     /// The update of one volume's table: update_volume() without the BSDF fraction and the reach. Returns false, and changes
     /// nothing, if the vectors do not fit the table's side.
     bool (*update_table)(const TableUpdateView& field, std::uint32_t volume);
+    // Of neural fields:
+    void (*multiply)(const MatrixProduct& product);
+    void (*descend)(const DescentStep& step);
+    /// Fills `shares`. Returns the expected logarithm of the density of all components together.
+    float (*attribute)(const MixtureLight& light, MixtureShares& shares);
+    VertexEvaluator evaluate_vertex;
 };
 
 extern const LaneKernels kLaneKernelsBaseline;

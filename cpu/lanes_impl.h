@@ -10,6 +10,7 @@
 #include "cpu/light_lanes.h"
 #include "cpu/light_tree_lanes.h"
 #include "cpu/lookup_lanes.h"
+#include "cpu/neural_lanes.h"
 #include "cpu/path_lanes.h"
 #include "cpu/shadow_lanes.h"
 #include "cpu/table_lanes.h"
@@ -255,7 +256,11 @@ constexpr LaneKernels lane_kernels_named(const char* name) {
             complete_samples,
             open_samples,
             has_samples,
-            update_table};
+            update_table,
+            multiply,
+            descend,
+            attribute,
+            evaluate_in_lanes};
 }
 
 }  // namespace

@@ -49,7 +49,7 @@ void lobe_slopes(const TaughtLobe& taught, const float* outputs, Vec3f normal, s
 
 }  // namespace
 
-float mixture_slopes(const NeuralKernels& kernels, const TaughtLight& light, const float* outputs, float scale,
+float mixture_slopes(const LaneKernels& kernels, const TaughtLight& light, const float* outputs, float scale,
                      float* slopes) {
     const Frame frame = make_frame(light.normal);
     MixtureLight mixture{light.probability, light.x, light.y, light.z, {}, {}, light.columns};

@@ -3,7 +3,7 @@
 
 #include "core/kernel/base/frame.h"
 #include "core/kernel/guiding/vertex_mixture.h"
-#include "cpu/neural_kernels.h"
+#include "cpu/lane_kernels.h"
 
 namespace pl {
 
@@ -21,7 +21,7 @@ struct TaughtLight {
 /// whose integral is exp(b + A(|v|)), A(k) = ln(4 pi sinh(k) / k), and A' is the mean cosine r. So the slope of -ln q by b is the
 /// share of the lobe in the mixture minus its responsibility, and that by v is the same difference of mean directions: those of an
 /// exponential family.   [Bishop 2006, "Pattern Recognition and Machine Learning", 2.4 and 9.3]
-float mixture_slopes(const NeuralKernels& kernels, const TaughtLight& light, const float* outputs, float scale,
+float mixture_slopes(const LaneKernels& kernels, const TaughtLight& light, const float* outputs, float scale,
                      float* slopes);
 
 }  // namespace pl

@@ -22,12 +22,12 @@ std::uint32_t far_stride(std::uint32_t count) {
 
 }  // namespace
 
-NetworkDescent::NetworkDescent(const FieldShape& shape, const HostVolumes& volumes, const NetworkLayout& layout,
-                               HostNeural& field, const DescentSettings& settings, int threads)
-    : shape_(shape), volumes_(volumes), layout_(layout), field_(field), settings_(settings), threads_(threads),
+NetworkDescent::NetworkDescent(const FieldShape& shape, const HostVolumes& volumes, HostNeural& field,
+                               const DescentSettings& settings, int threads)
+    : shape_(shape), volumes_(volumes), field_(field), settings_(settings), threads_(threads),
       count_(static_cast<std::uint32_t>(volume_count(field))), stride_(far_stride(count_)),
-      blocks_(settings.batch / kNetworkBlock, NetworkBlock(layout)),
-      slopes_(settings.batch / kNetworkBlock, std::vector<float>(layout.count - layout.first)) {}
+      blocks_(settings.batch / kNetworkBlock),
+      slopes_(settings.batch / kNetworkBlock, std::vector<float>(kNetworkWeights - kFirstLayer)) {}
 
 /// Volume n of an endless sequence that takes each once in turn.
 std::uint32_t NetworkDescent::volume_in_turn(std::uint64_t n) const {
@@ -35,7 +35,7 @@ std::uint32_t NetworkDescent::volume_in_turn(std::uint64_t n) const {
 }
 
 bool NetworkDescent::step(const Teach& teach) {
-    const Network network(best_neural_kernels(), layout_, field_.weights.data());
+    const Network network(best_lane_kernels(), field_.weights.data());
     const std::uint64_t first = std::uint64_t{field_.counts[kNetworkSteps]} * settings_.batch;
     const std::uint32_t taken = std::min(settings_.batch, count_);
     std::vector<std::uint32_t> batch(taken);
@@ -59,12 +59,12 @@ bool NetworkDescent::step(const Teach& teach) {
             network.propagate(block, slopes_[i].data());
         }
     });
-    std::vector<float> all(layout_.count);
+    std::vector<float> all(kNetworkWeights);
     float loss = 0.0f;
     for (std::uint32_t block = 0; block < used; ++block) {
         const auto [begin, length] = part(block);
         network.add_feature_slopes(std::span(points).subspan(begin, length), blocks_[block], all.data());
-        for (std::size_t i = layout_.first; i < layout_.count; ++i) all[i] += slopes_[block][i - layout_.first];
+        for (std::size_t i = kFirstLayer; i < kNetworkWeights; ++i) all[i] += slopes_[block][i - kFirstLayer];
         loss += losses[block];
     }
     if (!std::isfinite(loss)) return false;
@@ -76,9 +76,9 @@ void NetworkDescent::move_weights(const std::vector<float>& slopes) {
     const double steps = ++field_.counts[kNetworkSteps];
     const double mean_scale = 1.0 / (1.0 - std::pow(double{kMeanShare}, steps));
     const double rate = settings_.rate / std::sqrt(1.0 + steps / settings_.decay);
-    best_neural_kernels().descend({field_.weights.data(), field_.slope_mean.data(), field_.slope_square.data(),
-                                   slopes.data(), layout_.count, static_cast<float>(rate * mean_scale),
-                                   static_cast<float>(1.0 / (1.0 - std::pow(double{kSquareShare}, steps)))});
+    best_lane_kernels().descend({field_.weights.data(), field_.slope_mean.data(), field_.slope_square.data(),
+                                 slopes.data(), kNetworkWeights, static_cast<float>(rate * mean_scale),
+                                 static_cast<float>(1.0 / (1.0 - std::pow(double{kSquareShare}, steps)))});
 }
 
 }  // namespace pl

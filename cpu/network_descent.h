@@ -1,4 +1,4 @@
-// Gradient descent of a network over the volumes of a field, in batches of them.
+// Gradient descent of the network of a neural field over its volumes, in batches of them.
 #pragma once
 
 #include <functional>
@@ -24,8 +24,8 @@ public:
     using Teach = std::function<float(std::span<const std::uint32_t> volumes, NetworkBlock& block)>;
 
     /// Moves the weights of `field` and counts its steps. The arguments outlive it.
-    NetworkDescent(const FieldShape& shape, const HostVolumes& volumes, const NetworkLayout& layout,
-                   HostNeural& field, const DescentSettings& settings, int threads);
+    NetworkDescent(const FieldShape& shape, const HostVolumes& volumes, HostNeural& field,
+                   const DescentSettings& settings, int threads);
 
     /// One step, by the next volumes. Whether loss, weights and the state of Adam are finite behind it.
     bool step(const Teach& teach);
@@ -40,7 +40,6 @@ private:
 
     const FieldShape& shape_;
     const HostVolumes& volumes_;
-    NetworkLayout layout_;
     HostNeural& field_;
     DescentSettings settings_;
     int threads_;

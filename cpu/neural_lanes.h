@@ -1,21 +1,12 @@
-// Implementation of the neural kernels; see cpu/lanes.h. Elements are lanes and every sum has an order of its own, so that the
+// Loops of the network of neural fields over SIMD lanes; see cpu/lanes.h. Elements are lanes and every sum has an order of its own, so that the
 // width of vectors changes no bit.
 #pragma once
 
-#include "core/kernel/guiding/direction_cells.h"
 #include "cpu/lanes.h"
-#include "cpu/neural_kernels.h"
+#include "cpu/neural_rows.h"
 
 namespace pl {
 namespace {
-
-/// Training samples of a cell that a prediction counts as.
-constexpr float kPriorVisits = 2.0f;
-/// Those that it counts as in the 3 x 3 cells by which it is corrected, and in the volume by which it is scaled.
-constexpr float kNearVisits = 2.0f;
-constexpr float kScaleVisits = 4.0f;
-/// Most visits of a cell that count in the loss: later ones say little about its neighbors.
-constexpr float kMostVisits = 64.0f;
 
 constexpr std::uint32_t kRowBlock = 4;
 constexpr std::uint32_t kVectors = 2;  ///< of a block of columns
@@ -90,86 +81,6 @@ PL_INLINE void for_columns(std::uint32_t columns, Body&& body) {
 
 PL_INLINE LaneFloat column(const float* values, std::uint32_t index) { return load_lanes<LaneFloat>(values + index); }
 
-float slopes(const VolumeLight& light, float scale, float* slopes) {
-    ColumnTotal loss;
-    for_columns(light.columns, [&](std::uint32_t part, std::uint32_t i) {
-        const LaneFloat logarithm = column(light.logarithms, i);
-        const LaneFloat value = exponential(logarithm);
-        const LaneFloat weight = scale * smaller(column(light.visits, i), broadcast(kMostVisits));
-        const LaneFloat target = column(light.radiance, i);
-        loss.parts[part] += weight * (value - target * logarithm);
-        store_lanes(weight * (value - target), slopes + i);
-    });
-    return loss.total();
-}
-
-bool predict(const VolumeLight& light, float* predicted) {
-    ColumnTotal known, expected, all, cells, finite;
-    for_columns(light.columns, [&](std::uint32_t part, std::uint32_t i) {
-        const LaneFloat logarithm = column(light.logarithms, i);
-        const LaneFloat value = column(light.is_cell, i) * exponential(logarithm);
-        const LaneFloat visits = column(light.visits, i);
-        store_lanes(value, predicted + i);
-        known.parts[part] += visits * column(light.radiance, i);
-        expected.parts[part] += visits * value;
-        all.parts[part] += value;
-        cells.parts[part] += column(light.is_cell, i);
-        finite.parts[part] += 0.0f * logarithm;
-    });
-    const float prior = kScaleVisits * (all.total() / cells.total());
-    const float scale = (known.total() + prior) / (expected.total() + prior);
-    for_columns(light.columns,
-                [&](std::uint32_t, std::uint32_t i) { store_lanes(scale * column(predicted, i), predicted + i); });
-    return finite.total() == 0.0f;
-}
-
-/// Sums over three rows of columns, with an empty one on either side.
-struct RowSums {
-    float known[kMaxSide + 2], expected[kMaxSide + 2];
-};
-
-/// Of the cells in the rows around `row`: visits times learned and times predicted radiance.
-PL_INLINE void add_rows(const VolumeLight& light, const float* predicted, std::uint32_t side, std::uint32_t row,
-                        RowSums& sums) {
-    for (std::uint32_t x = 0; x < side + 2; ++x) sums.known[x] = sums.expected[x] = 0.0f;
-    const std::uint32_t first = row > 0 ? row - 1 : row;
-    const std::uint32_t last = row + 1 < side ? row + 1 : row;
-    for (std::uint32_t y = first; y <= last; ++y)
-        for (std::uint32_t x = 0; x < side; ++x) {
-            const float visits = light.visits[y * side + x];
-            sums.known[x + 1] += visits * light.radiance[y * side + x];
-            sums.expected[x + 1] += visits * predicted[y * side + x];
-        }
-}
-
-PL_INLINE void weigh_side(const VolumeLight& light, const float* predicted, std::uint32_t side, float* weights) {
-    ColumnTotal all;
-    for_columns(light.columns, [&](std::uint32_t part, std::uint32_t i) { all.parts[part] += column(predicted, i); });
-    const float prior = kNearVisits * all.total() / static_cast<float>(side * side);
-    for (std::uint32_t row = 0; row < side; ++row) {
-        RowSums sums;
-        add_rows(light, predicted, side, row, sums);
-        float row_weights[kMaxSide];
-        for (std::uint32_t x = 0; x < side; ++x) {
-            const std::uint32_t cell = row * side + x;
-            const float known = prior + (sums.known[x] + sums.known[x + 1] + sums.known[x + 2]);
-            const float expected = prior + (sums.expected[x] + sums.expected[x + 1] + sums.expected[x + 2]);
-            const float visits = light.visits[cell];
-            const float own = visits * light.radiance[cell] + kPriorVisits * predicted[cell] * (known / expected);
-            row_weights[x] = own / (visits + kPriorVisits);
-        }
-        for (std::uint32_t x = 0; x < side; ++x) weights[row * side + x] = row_weights[x];
-    }
-}
-
-void weigh(const VolumeLight& light, const float* predicted, std::uint32_t side, float* weights) {
-    constexpr std::uint32_t kCommonSide = 16;  // the default, known to the compiler
-    if (side == kCommonSide)
-        weigh_side(light, predicted, kCommonSide, weights);
-    else
-        weigh_side(light, predicted, side, weights);
-}
-
 void descend(const DescentStep& step) {
     constexpr float kLeast = 1.0e-8f;
     static_assert(kColumnBlock % kLaneWidth == 0);
@@ -236,10 +147,6 @@ float attribute(const MixtureLight& light, MixtureShares& shares) {
 /// Of this file alone, which a template of the header is not.
 void evaluate_in_lanes(const float* weights, const float* inputs, float* outputs) {
     evaluate_vertex<LaneFloat>(weights, inputs, outputs);
-}
-
-constexpr NeuralKernels neural_kernels_named(const char* isa) {
-    return {isa, multiply, slopes, predict, weigh, descend, attribute, evaluate_in_lanes};
 }
 
 }  // namespace

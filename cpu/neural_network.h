@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/kernel/guiding/network_inputs.h"
-#include "cpu/neural_kernels.h"
+#include "cpu/lane_kernels.h"
 
 namespace pl {
 
@@ -14,22 +14,27 @@ inline constexpr std::uint32_t kNetworkBlock = 64;
 
 /// Values of all units for a block of volumes, [volume][unit], and in training the slopes of the loss by them.
 struct NetworkBlock {
-    explicit NetworkBlock(const NetworkLayout& layout);
+    std::vector<float> inputs = rows(kInputs), first = rows(kHiddenRow), second = rows(kHiddenRow),
+                       outputs = rows(kOutputColumns);
+    std::vector<float> input_slopes = rows(kInputs), first_slopes = rows(kHiddenUnits),
+                       second_slopes = rows(kHiddenUnits), output_slopes = rows(kOutputColumns);
 
-    std::vector<float> inputs, first, second, outputs;
-    std::vector<float> input_slopes, first_slopes, second_slopes, output_slopes;
+private:
+    static std::vector<float> rows(std::uint32_t units) {
+        return std::vector<float>(std::size_t{kNetworkBlock} * units);
+    }
 };
 
 /// A network for one set of weights.
 class Network {
 public:
-    /// Weights and places as in NetworkLayout. `kernels` and `weights` outlive it.
-    Network(const NeuralKernels& kernels, const NetworkLayout& layout, const float* weights);
+    /// Weights as in network_layout.h. `kernels` and `weights` outlive it.
+    Network(const LaneKernels& kernels, const float* weights);
 
     /// Fills the block's units for these points, at most kNetworkBlock of them.
     void predict(std::span<const NetworkPoint> points, NetworkBlock& block) const;
 
-    /// From block.output_slopes: the slopes by the weights of the layers into `slopes`, from NetworkLayout::first on, and
+    /// From block.output_slopes: the slopes by the weights of the layers into `slopes`, from kFirstLayer on, and
     /// those by the inputs into the block. The block is that of the last predict().
     void propagate(NetworkBlock& block, float* slopes) const;
 
@@ -37,8 +42,7 @@ public:
     void add_feature_slopes(std::span<const NetworkPoint> points, const NetworkBlock& block, float* slopes) const;
 
 private:
-    const NeuralKernels& kernels_;
-    NetworkLayout layout_;
+    const LaneKernels& kernels_;
     const float* weights_;
     std::vector<float> first_turned_, second_turned_, last_turned_;  ///< the layers, [unit][input]
 };

@@ -1,139 +1,144 @@
 #include "cpu/neural_update.h"
 
 #include <algorithm>
-#include <cmath>
 
-#include "core/kernel/guiding/update_volume.h"
+#include "cpu/mixture_slopes.h"
 #include "cpu/network_descent.h"
-#include "cpu/parallel_for.h"
 
 namespace pl {
 namespace {
 
-constexpr DescentSettings kDescent{.batch = 512, .rate = 0.02, .decay = 300.0};
-/// Every volume teaches the network about once in an update, within these numbers of steps.
-constexpr std::uint32_t kFewestSteps = 4;
+constexpr DescentSettings kDescent{.batch = 256, .rate = 0.01, .decay = 300.0};
+/// Every volume teaches the network about twice in an update, within these numbers of steps.
+constexpr std::uint32_t kFewestSteps = 16;
 constexpr std::uint32_t kMostSteps = 40;
 
-/// Light in the cells of one volume, as kernels take it.
-struct CellRows {
-    explicit CellRows(std::uint32_t columns)
-        : visits(columns), radiance(columns), is_cell(columns), values(columns) {}
+/// Training samples of a volume by which its loss counts half of that of a volume with many.
+constexpr float kHalfVisits = 64.0f;
 
-    std::vector<float> visits, radiance, is_cell;
-    std::vector<float> values;
+/// Least sum of a table's probabilities above their uniform floor that teaches: of rounding, if all is floor.
+constexpr float kLeastKnown = 0.01f;
+
+/// Most steps that the running means of weights look back.
+constexpr double kMeanSteps = 16.0;
+
+/// A number in [0, 1) of its own for every index.
+float scattered_unit(std::uint64_t i) {
+    const std::uint64_t word = (i + 1) * 0x9e3779b97f4a7c15u;
+    const std::uint64_t mixed = (word ^ word >> 31) * 0xbf58476d1ce4e5b9u;
+    return static_cast<float>((mixed ^ mixed >> 29) >> 40) * 0x1p-24f;
+}
+
+/// Directions in the cells of a hemisphere, [column].
+struct CellDirections {
+    std::vector<float> x, y, z;
+
+    explicit CellDirections(std::size_t columns) : x(columns), y(columns), z(columns) {}
+
+    /// Anywhere in each cell, others in every step: so lobes do not become narrower than cells.
+    void scatter(const DirectionCells& cells, std::uint64_t step) {
+        for (int cell = 0; cell < cells.count(); ++cell) {
+            const std::uint64_t index =
+                2 * (step * static_cast<std::uint64_t>(cells.count()) + static_cast<std::uint64_t>(cell));
+            const Vec2f u{scattered_unit(index), scattered_unit(index + 1)};
+            const Vec3f local = square_to_cosine_hemisphere(cells.point_in_cell(cell, u));
+            const auto i = static_cast<std::size_t>(cell);
+            x[i] = local.x;
+            y[i] = local.y;
+            z[i] = local.z;
+        }
+    }
 };
 
 class NetworkUpdate {
 public:
     NetworkUpdate(const FieldShape& shape, const HostVolumes& volumes, HostNeural& field, int threads)
-        : shape_(shape), field_(field), threads_(threads), view_(update_view(shape, static_cast<HostTables&>(field))),
-          layout_(layout_of(shape)), descent_(shape, volumes, layout_, field, kDescent, threads),
-          count_(static_cast<std::uint32_t>(volume_count(field))), unit_(mean_of_volumes()) {}
+        : shape_(shape), volumes_(volumes), field_(field), view_(update_view(shape, static_cast<HostTables&>(field))),
+          descent_(shape, volumes, field, kDescent, threads),
+          columns_((static_cast<std::uint32_t>(shape.cells.count()) + kColumnBlock - 1) / kColumnBlock *
+                   kColumnBlock),
+          directions_(columns_) {}
 
     void run() {
-        if (field_.counts[kNetworkIsLost] != 0 || !(unit_ > 0.0f)) return;
-        if (!learn() || !sample_by_predictions()) give_up();
+        if (field_.counts[kNetworkIsLost] != 0 || !knows_light()) return;
+        const auto count = static_cast<std::uint32_t>(volume_count(field_));
+        const std::uint32_t steps = std::clamp(2 * count / kDescent.batch, kFewestSteps, kMostSteps);
+        for (std::uint32_t step = 0; step < steps; ++step)
+            if (!learn()) return give_up();
     }
 
 private:
-    /// Mean of the learned radiance over volumes that know light; 0 if none does.
-    float mean_of_volumes() const {
-        double sum = 0.0;
-        std::uint32_t lit = 0;
-        for (std::uint32_t volume = 0; volume < count_; ++volume) {
-            const float mean = view_.mean_radiance[volume];
-            if (!(mean > 0.0f && mean < kInfinity)) continue;
-            sum += static_cast<double>(mean);
-            ++lit;
-        }
-        return lit == 0 ? 0.0f : static_cast<float>(sum / lit);
+    bool knows_light() const {
+        return std::ranges::any_of(field_.mean_radiance, [](float mean) { return mean > 0.0f && mean < kInfinity; });
     }
 
-    /// Whether all stays finite.
+    /// One step. Whether all stays finite.
     bool learn() {
-        const std::uint32_t batches = (count_ + kDescent.batch - 1) / kDescent.batch;
-        const std::uint32_t steps = std::clamp(batches, kFewestSteps, kMostSteps);
-        for (std::uint32_t step = 0; step < steps; ++step)
-            if (!descent_.step([this](const auto& volumes, NetworkBlock& block) { return teach(volumes, block); }))
-                return false;
+        directions_.scatter(shape_.cells, field_.counts[kNetworkSteps]);
+        if (!descent_.step([this](const auto& volumes, NetworkBlock& block) { return teach(volumes, block); }))
+            return false;
+        const double steps = std::min(static_cast<double>(field_.counts[kNetworkSteps]), kMeanSteps);
+        const auto share = static_cast<float>(1.0 / steps);
+        for (std::size_t i = 0; i < field_.average.size(); ++i)
+            field_.average[i] += share * (field_.weights[i] - field_.average[i]);
         return true;
     }
 
     float teach(std::span<const std::uint32_t> volumes, NetworkBlock& block) const {
-        CellRows light(layout_.columns);
+        std::vector<float> probability(columns_);
         float loss = 0.0f;
-        for (std::size_t i = 0; i < volumes.size(); ++i)
-            loss += best_neural_kernels().slopes(light_of(volumes[i], i, block, light), 1.0f / kDescent.batch,
-                                                 block.output_slopes.data() + i * layout_.columns);
+        for (std::size_t i = 0; i < volumes.size(); ++i) {
+            const float weight = confidence_in(volumes[i]) / static_cast<float>(kDescent.batch);
+            if (!(weight > 0.0f) || !fill_probabilities(volumes[i], probability.data())) continue;
+            const TaughtLight light{
+                probability.data(), directions_.x.data(),        directions_.y.data(), directions_.z.data(),
+                columns_,           volumes_.normals[volumes[i]]};
+            const std::size_t row = i * kOutputColumns;
+            loss += weight * mixture_slopes(best_lane_kernels(), light, block.outputs.data() + row, weight,
+                                            block.output_slopes.data() + row);
+        }
         return loss;
     }
 
-    VolumeLight light_of(std::uint32_t volume, std::size_t row, const NetworkBlock& block, CellRows& light) const {
-        const auto cells = static_cast<std::uint32_t>(shape_.cells.count());
-        const float scale = 1.0f / unit_;
-        for (std::uint32_t cell = 0; cell < cells; ++cell) {
-            light.visits[cell] = visit_weight<One>(view_.visits[volume * cells + cell]);
-            light.radiance[cell] = learned_radiance(view_, volume * cells + cell) * scale;
-            light.is_cell[cell] = 1.0f;
-        }
-        return {light.visits.data(), light.radiance.data(), light.is_cell.data(),
-                block.outputs.data() + row * layout_.columns, layout_.columns};
+    /// In [0, 1); 0 of a volume that knows no light.
+    float confidence_in(std::uint32_t volume) const {
+        if (!(view_.mean_radiance[volume] > 0.0f)) return 0.0f;
+        const float visits = TableVolumeSummary{view_}.samples(volume);
+        return visits / (visits + kHalfVisits);
     }
 
-    /// Whether all predictions are finite.
-    bool sample_by_predictions() {
-        const Network network(best_neural_kernels(), layout_, field_.weights.data());
-        const std::uint32_t chunks = (count_ + kNetworkBlock - 1) / kNetworkBlock;
-        std::vector<std::uint8_t> finite(chunks, 1);
-        ChunkQueue queue(0, chunks, 1);
-        parallel_for(threads_, queue, [&](IndexRange range) {
-            NetworkBlock block(layout_);
-            CellRows light(layout_.columns);
-            for (std::uint32_t chunk = range.begin; chunk < range.end; ++chunk) {
-                const std::uint32_t first = chunk * kNetworkBlock;
-                const std::uint32_t end = std::min(first + kNetworkBlock, count_);
-                std::vector<NetworkPoint> points;
-                for (std::uint32_t volume = first; volume < end; ++volume)
-                    points.push_back(descent_.point_of(volume));
-                network.predict(points, block);
-                for (std::uint32_t volume = first; volume < end; ++volume)
-                    if (!sample_by(light_of(volume, volume - first, block, light), volume, light.values.data()))
-                        finite[chunk] = 0;
+    /// Those of the table without the uniform floor, since lobes are nowhere 0. False if the table is nothing else.
+    bool fill_probabilities(std::uint32_t volume, float* probability) const {
+        const DirectionTable table(view_, static_cast<std::int32_t>(volume));
+        const int side = shape_.cells.side;
+        const float floor = shape_.uniform_floor / static_cast<float>(side * side);
+        float sum = 0.0f;
+        for (int row = 0; row < side; ++row)
+            for (int column = 0; column < side; ++column) {
+                const float above = max_of(table.cell_probability(column, row) - floor, 0.0f);
+                probability[row * side + column] = above;
+                sum += above;
             }
-        });
-        return std::ranges::all_of(finite, [](std::uint8_t is_finite) { return is_finite != 0; });
-    }
-
-    bool sample_by(const VolumeLight& light, std::uint32_t volume, float* predicted) const {
-        const NeuralKernels& kernels = best_neural_kernels();
-        if (!kernels.predict(light, predicted)) return false;
-        const auto side = static_cast<std::uint32_t>(shape_.cells.side);
-        kernels.weigh(light, predicted, side, view_.column_cdf.data + std::size_t{volume} * side * side);
-        for (std::uint32_t row = volume * side; row < (volume + 1) * side; ++row)
-            view_.row_cdf[row] = sum_of(view_.column_cdf.data + std::size_t{row} * side, shape_.cells.side);
-        for (std::uint32_t row = volume * side; row < (volume + 1) * side; ++row) build_row(view_, row);
-        build_row_choice(view_, volume);
+        if (!(sum > kLeastKnown)) return false;
+        for (int cell = 0; cell < side * side; ++cell) probability[cell] /= sum;
         return true;
     }
 
-    /// The tables by themselves from now on.
+    /// The cosine alone from now on.
     void give_up() {
         const std::uint32_t steps = field_.counts[kNetworkSteps];
-        reset_network(layout_, field_);
+        reset_network(field_);
         field_.counts[kNetworkSteps] = steps;
         field_.counts[kNetworkIsLost] = 1;
-        for (std::uint32_t volume = 0; volume < count_; ++volume) update_volume(view_, volume);
     }
 
     const FieldShape& shape_;
+    const HostVolumes& volumes_;
     HostNeural& field_;
-    int threads_;
     TableUpdateView view_;
-    NetworkLayout layout_;
     NetworkDescent descent_;
-    std::uint32_t count_;
-    float unit_;
+    std::uint32_t columns_;
+    CellDirections directions_;
 };
 
 }  // namespace

@@ -1,4 +1,4 @@
-// The update of a neural field: the network learns from the tables, and the tables are sampled by both.
+// The update of the network of a neural field.
 #pragma once
 
 #include "core/fields/neural_model.h"
@@ -6,10 +6,9 @@
 
 namespace pl {
 
-/// Teaches the network by a few steps of gradient descent on the learned radiance of the tables, whose pending sums have been
-/// absorbed, and rebuilds all cumulative probabilities with its predictions as prior. What the tables have learned is only
-/// read. The same bits for any number of threads and any instruction set. A network that is not finite is given up: the
-/// tables are then sampled without it, see kNetworkIsLost.
+/// Teaches the network by a few steps of gradient descent on the Kullback-Leibler divergence of its mixtures at the sites of volumes from
+/// the probabilities of their tables, whose pending sums have been absorbed and which are only read. The same bits for any number of
+/// threads and any instruction set. A network that is not finite is given up: paths are then guided by the cosine, see kNetworkIsLost.
 void update_network(const FieldShape& shape, const HostVolumes& volumes, HostNeural& field, int threads);
 
 }  // namespace pl

@@ -44,10 +44,7 @@ public:
     }
     HostField download_field(MethodId method) const override { return fields_.download(method); }
     bool has_field(MethodId method) const override { return fields_.has(method); }
-    std::size_t field_bytes(MethodId method) const override { return fields_.bytes(method); }
-    std::optional<NetworkStatus> network_status(MethodId method) const override {
-        return fields_.network_status(method);
-    }
+    FieldReport field_report(MethodId method) const override { return fields_.report(method); }
 
     void reset_film(FilmSlot slot, int width, int height) override {
         launcher_.forget();

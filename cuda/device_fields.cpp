@@ -4,7 +4,6 @@
 
 #include "core/base/usable_threads.h"
 #include "cpu/neural_update.h"
-#include "cpu/neural_vertex_update.h"
 
 namespace pl::cuda {
 
@@ -26,15 +25,11 @@ void DeviceFields::upload(MethodId method, const HostField& field) {
                                 "--backend cpu or --field table",
                                 std::holds_alternative<HostSdTree>(field) ? "an SD-tree" : "lobes"));
     StoredField uploaded;
-    store(uploaded, field);
-    stored_[index_of(method)] = std::move(uploaded);
-}
-
-void DeviceFields::store(StoredField& stored, const HostField& field) {
-    zip_fields(field, stored.arrays, [&](const auto& from, auto& to) { to.upload(from, stream_); });
-    gather_records(stored);
-    stored.network = network_status_of(field);
+    zip_fields(field, uploaded.arrays, [&](const auto& from, auto& to) { to.upload(from, stream_); });
+    gather_records(uploaded);
+    uploaded.report = report_of(field);
     stream_.wait("uploading a field");
+    stored_[index_of(method)] = std::move(uploaded);
 }
 
 HostField DeviceFields::download(MethodId method) const {
@@ -46,17 +41,8 @@ HostField DeviceFields::download(MethodId method) const {
     return field;
 }
 
-std::size_t DeviceFields::bytes(MethodId method) const {
-    std::size_t sum = 0;
-    HostField sizes;
-    if (has(method))
-        zip_fields(stored_[index_of(method)]->arrays, sizes,
-                   [&](const auto& array, const auto&) { sum += array.bytes(); });
-    return sum;
-}
-
-std::optional<NetworkStatus> DeviceFields::network_status(MethodId method) const {
-    return has(method) ? stored_[index_of(method)]->network : std::nullopt;
+FieldReport DeviceFields::report(MethodId method) const {
+    return has(method) ? stored_[index_of(method)]->report : FieldReport{};
 }
 
 void DeviceFields::change_pending(MethodId method, const std::function<void(PendingSums)>& change) {
@@ -80,24 +66,20 @@ void DeviceFields::update(MethodId method) {
         if (step.item == UpdateItem::Row) count *= static_cast<std::uint32_t>(field.cells.side);
         launch(step.kernel, one_thread_each(count), stream_, step.name, field, count);
     }
-    if (stored.network) return teach_network(method);
+    if (stored.report.network) return teach_network(method);
     gather_records(stored);
     stream_.wait("updating a field");
 }
 
-/// Teaches the network by the tables as they are on the device. Arrays that have changed go back.
+/// Teaches the network by the tables as they are on the device. Its arrays go back.
 void DeviceFields::teach_network(MethodId method) {
     StoredField& stored = existing(method);
     HostField field = download(method);
-    if (auto* neural = std::get_if<HostNeural>(&field)) {
-        update_network(shape_, *host_volumes_, *neural, usable_threads());
-        return store(stored, field);
-    }
-    auto& vertex = std::get<HostNeuralVertex>(field);
-    update_vertex_network(shape_, *host_volumes_, vertex, usable_threads());
-    auto& arrays = std::get<NeuralVertexStorage<DeviceArray>>(stored.arrays);
-    for_each_vertex_array([&](const auto& spec) { spec.get(arrays).upload(spec.get(vertex), stream_); });
-    stored.network = status_of(vertex);
+    auto& neural = std::get<HostNeural>(field);
+    update_network(shape_, *host_volumes_, neural, usable_threads());
+    auto& arrays = std::get<NeuralStorage<DeviceArray>>(stored.arrays);
+    for_each_network_array([&](const auto& spec) { spec.get(arrays).upload(spec.get(neural), stream_); });
+    stored.report.network = status_of(neural);
     gather_records(stored);
     stream_.wait("updating a network");
 }
@@ -106,8 +88,8 @@ AnyFieldView DeviceFields::view(MethodId method) {
     StoredField& stored = existing(method);
     AnyFieldView view = field_view(shape_, volumes_, stored.arrays);
     const Span<const VolumeRecord> records = view_of(std::as_const(stored.records));
-    if (auto* vertex = std::get_if<NeuralVertexField>(&view))
-        vertex->records = records;
+    if (auto* neural = std::get_if<NeuralField>(&view))
+        neural->records = records;
     else
         std::get<TableField>(view).records = records;
     return view;
@@ -125,7 +107,6 @@ ShownField DeviceFields::shown(const FilmSlot& slot) {
 /// The tables of a field that has them.
 DeviceFields::Tables& DeviceFields::tables_of(Arrays& arrays) {
     if (auto* neural = std::get_if<NeuralStorage<DeviceArray>>(&arrays)) return *neural;
-    if (auto* vertex = std::get_if<NeuralVertexStorage<DeviceArray>>(&arrays)) return *vertex;
     return std::get<Tables>(arrays);
 }
 
@@ -151,9 +132,9 @@ Span<const float> DeviceFields::volume_values(const FilmSlot& slot) {
     const TableUpdateView field = update_view(shape_, tables_of(arrays));
     const std::uint32_t volumes = field.mean_radiance.count;
     if (volume_values_.size() != volumes) volume_values_ = DeviceArray<float>(volumes);
-    if (std::holds_alternative<NeuralVertexStorage<DeviceArray>>(arrays)) {
+    if (std::holds_alternative<NeuralStorage<DeviceArray>>(arrays)) {
         HostField on_host = download(method);
-        const auto summary = summary_of(shape_, *host_volumes_, std::get<HostNeuralVertex>(on_host));
+        const auto summary = summary_of(shape_, *host_volumes_, std::get<HostNeural>(on_host));
         std::vector<float> values(volumes);
         for (std::uint32_t i = 0; i < volumes; ++i) values[i] = volume_value(summary, i, slot.view);
         volume_values_.upload(values, stream_);

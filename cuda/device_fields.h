@@ -14,8 +14,8 @@
 
 namespace pl::cuda {
 
-/// Tables are updated on the device; the networks of neural fields are taught by the host between passes, as the CPU back end teaches
-/// them, so that both have the same bits.
+/// Tables are updated on the device; the network of a neural field is taught by the host between passes, as the CPU back end teaches it,
+/// so that both have the same bits.
 class DeviceFields {
 public:
     explicit DeviceFields(const Stream& stream) : stream_(stream) {}
@@ -27,8 +27,7 @@ public:
     /// Empty arrays if the method has no field.
     HostField download(MethodId method) const;
     bool has(MethodId method) const { return stored_[index_of(method)].has_value(); }
-    std::size_t bytes(MethodId method) const;
-    std::optional<NetworkStatus> network_status(MethodId method) const;
+    FieldReport report(MethodId method) const;
 
     /// The following functions throw Error(Runtime) if the method has no field.
     void change_pending(MethodId method, const std::function<void(PendingSums)>& change);
@@ -46,14 +45,13 @@ private:
     struct StoredField {
         Arrays arrays;
         DeviceArray<VolumeRecord> records;
-        std::optional<NetworkStatus> network;  ///< since the last update
+        FieldReport report;  ///< since the last update
     };
 
     static std::size_t index_of(MethodId method) { return static_cast<std::size_t>(method); }
     static Tables& tables_of(Arrays& arrays);
 
     StoredField& existing(MethodId method);
-    void store(StoredField& stored, const HostField& field);
     void teach_network(MethodId method);
     void gather_records(StoredField& stored);
     Span<const float> volume_values(const FilmSlot& slot);

@@ -3,7 +3,7 @@
 
 Usage: compare_representations.py PROGRAM BENCH [KEY=VALUE ...]
 PROGRAM: pathlight. BENCH: gain_bench. Keys and their values:
-scenes=door,cornell,indirect,thin-wall   memory=2,16 (MB, 1e6 bytes)   fields=table,lobes,sd-tree,neural,neural-vertex
+scenes=door,cornell,indirect,thin-wall   memory=2,16 (MB, 1e6 bytes)   fields=table,lobes,sd-tree,neural
 light=on,off   size=256   early=16   late=64 (samples)   seeds=2   reference=64 (samples a half)
 Field and placement fill the memory: volumes for all but the SD-tree, whose nodes do with the usual 1000 volumes.
 """
@@ -13,9 +13,9 @@ import subprocess
 import sys
 import tempfile
 
-FIELDS = ["table", "sd-tree", "lobes", "neural", "neural-vertex"]  # by the number that gain_bench calls them
+FIELDS = ["table", "sd-tree", "lobes", "neural"]  # by the number that gain_bench calls them
 DEFAULTS = {"scenes": "door,cornell,indirect,thin-wall", "memory": "2,16",
-            "fields": "table,lobes,sd-tree,neural,neural-vertex", "light": "off,on", "size": "256",
+            "fields": "table,lobes,sd-tree,neural", "light": "off,on", "size": "256",
             "early": "16", "late": "64", "seeds": "2", "reference": "64"}
 
 

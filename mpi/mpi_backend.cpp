@@ -70,10 +70,7 @@ public:
         return local().download_field(method);
     }
     bool has_field(MethodId method) const override { return local().has_field(method); }
-    std::size_t field_bytes(MethodId method) const override { return local().field_bytes(method); }
-    std::optional<NetworkStatus> network_status(MethodId method) const override {
-        return local().network_status(method);
-    }
+    FieldReport field_report(MethodId method) const override { return local().field_report(method); }
     void change_pending(MethodId method, const std::function<void(PendingSums)>& change) override {
         lead({.order = Order::Collect, .method = method});
         local().change_pending(method, change);

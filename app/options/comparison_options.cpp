@@ -64,8 +64,8 @@ constexpr auto kComparisonOptions = std::to_array<OptionSpec>({
              "others",
      .commands = CommandSet(Command::Bench), .parse = parse_methods},
     {.name = "field", .flags = "--field", .value = "NAME,..", .group = kCompared,
-     .help = "Representations of what reinforcement learns to compare: table, sd-tree, lobes, neural, neural-vertex (default: that "
-             "of each scene's settings)",
+     .help = "Representations of what reinforcement learns to compare: table, sd-tree, lobes, neural (default: that of "
+             "each scene's settings)",
      .commands = CommandSet(Command::Bench), .parse = parse_representations, .print = print_representations},
     {.name = "backend", .flags = "--backend", .value = "NAME,..", .group = kCompared,
      .help = "Back ends to compare: cpu, cuda (default: all that are available)",

@@ -13,8 +13,8 @@ void refuse_save_field(Options&, const std::string&) {
 constexpr auto kFieldOptions = std::to_array<OptionSpec>({
     {.name = "field", .flags = "--field", .value = "NAME", .group = kField,
      .help = "How reinforcement represents what it learns: table (default), cells of directions in each radiance volume; sd-tree; "
-             "lobes, von Mises-Fisher mixtures; neural, tables with a network as their prior; neural-vertex, mixtures by a network. "
-             "sd-tree and lobes on the CPU alone",
+             "lobes, von Mises-Fisher mixtures; neural, mixtures of lobes by a network. sd-tree and lobes on the "
+             "CPU alone",
      .commands = kSampling, .in_scene_files = true, .parse = parse_representation,
      .print = [](const Options& o) { return std::string(name_of(o.render.field.representation)); }},
     {.name = "volumes", .flags = "--volumes", .value = "N", .group = kField,

@@ -9,11 +9,11 @@
 
 namespace pl {
 
-/// The representation whose kernels sample from a field; the table without a field, and for a prior of tables.
+/// The representation whose kernels sample from a field; the table without a field.
 inline Representation sampled_representation(const AnyFieldView& field) {
     if (std::holds_alternative<SdTreeField>(field)) return Representation::SdTree;
     if (std::holds_alternative<LobeField>(field)) return Representation::Lobes;
-    if (std::holds_alternative<NeuralVertexField>(field)) return Representation::NeuralVertex;
+    if (std::holds_alternative<NeuralField>(field)) return Representation::Neural;
     return Representation::Table;
 }
 
@@ -29,9 +29,8 @@ void with_kernel_of(Representation representation, MethodId method, const Learni
         switch (representation) {
         case Representation::SdTree: return is_found(std::type_identity<SdTreeField>{});
         case Representation::Lobes: return is_found(std::type_identity<LobeField>{});
-        case Representation::NeuralVertex: return is_found(std::type_identity<NeuralVertexField>{});
-        case Representation::Table:
-        case Representation::Neural: break;
+        case Representation::Neural: return is_found(std::type_identity<NeuralField>{});
+        case Representation::Table: break;
         }
         return is_found(std::type_identity<TableField>{});
     };

@@ -7,7 +7,7 @@
 #include <variant>
 
 #include "core/fields/lobe_model.h"
-#include "core/fields/neural_vertex_model.h"
+#include "core/fields/neural_model.h"
 #include "core/fields/sd_tree_model.h"
 #include "core/kernel/methods/method.h"
 
@@ -15,17 +15,16 @@ namespace pl {
 
 /// The arrays of a field in memory of one kind, by representation.
 template <template <class> class Array>
-using FieldArrays = std::variant<TableStorage<Array>, SdTreeStorage<Array>, LobeStorage<Array>, NeuralStorage<Array>,
-                                 NeuralVertexStorage<Array>>;
+using FieldArrays = std::variant<TableStorage<Array>, SdTreeStorage<Array>, LobeStorage<Array>, NeuralStorage<Array>>;
 using HostField = FieldArrays<LargeArray>;
 
-/// A field as kernels see it; std::monostate for methods without one. Of a neural field over volumes they see the tables.
-using AnyFieldView = std::variant<std::monostate, TableField, SdTreeField, LobeField, NeuralVertexField>;
+/// A field as kernels see it; std::monostate for methods without one.
+using AnyFieldView = std::variant<std::monostate, TableField, SdTreeField, LobeField, NeuralField>;
 
 /// The representation of a field's arrays: their place in the variant.
 template <class Field>
 Representation representation_of(const Field& field) {
-    return static_cast<Representation>(field.index());
+    return kAllRepresentations[field.index()];
 }
 
 /// Arrays without values.
@@ -36,7 +35,6 @@ void clear_to(FieldArrays<Array>& field, Representation representation) {
     case Representation::SdTree: field = SdTreeStorage<Array>{}; return;
     case Representation::Lobes: field = LobeStorage<Array>{}; return;
     case Representation::Neural: field = NeuralStorage<Array>{}; return;
-    case Representation::NeuralVertex: field = NeuralVertexStorage<Array>{}; return;
     }
 }
 
@@ -45,7 +43,6 @@ inline HostField make_field(const FieldShape& shape, std::size_t volumes, Repres
     if (representation == Representation::SdTree) return make_sd_tree(shape, volumes);
     if (representation == Representation::Lobes) return make_lobes(shape, volumes);
     if (representation == Representation::Neural) return make_neural(shape, volumes);
-    if (representation == Representation::NeuralVertex) return make_neural_vertex(shape, volumes);
     return make_tables(shape, volumes);
 }
 
@@ -58,11 +55,15 @@ inline std::size_t field_bytes(const HostField& field) {
     return std::visit([](const auto& arrays) { return field_bytes(arrays); }, field);
 }
 
-/// Of a field without a network: none.
-inline std::optional<NetworkStatus> network_status_of(const HostField& field) {
-    if (const auto* vertex = std::get_if<HostNeuralVertex>(&field)) return status_of(*vertex);
+/// What is told of a field without its arrays.
+struct FieldReport {
+    std::size_t bytes = 0;                   ///< of its arrays
+    std::optional<NetworkStatus> network{};  ///< of a neural field
+};
+inline FieldReport report_of(const HostField& field) {
     const auto* neural = std::get_if<HostNeural>(&field);
-    return neural != nullptr ? std::optional(status_of(*neural)) : std::nullopt;
+    return {.bytes = field_bytes(field),
+            .network = neural != nullptr ? std::optional(status_of(*neural)) : std::nullopt};
 }
 
 /// Calls fn(array of `from`, array of `to`) for every array, after `to` has got the representation of `from`.
@@ -75,8 +76,6 @@ void zip_fields(const FieldArrays<From>& from, FieldArrays<To>& to, Fn&& fn) {
         zip(*lobes, std::get<LobeStorage<To>>(to), fn);
     else if (const auto* neural = std::get_if<NeuralStorage<From>>(&from))
         zip(*neural, std::get<NeuralStorage<To>>(to), fn);
-    else if (const auto* vertex = std::get_if<NeuralVertexStorage<From>>(&from))
-        zip(*vertex, std::get<NeuralVertexStorage<To>>(to), fn);
     else
         zip(std::get<TableStorage<From>>(from), std::get<TableStorage<To>>(to), fn);
 }
@@ -102,7 +101,7 @@ template <class Any, class Visit>
 decltype(auto) visit_field(Any& field, Visit&& visit) {
     if (auto* tree = std::get_if<SdTreeField>(&field)) return visit(*tree);
     if (auto* lobes = std::get_if<LobeField>(&field)) return visit(*lobes);
-    if (auto* vertex = std::get_if<NeuralVertexField>(&field)) return visit(*vertex);
+    if (auto* neural = std::get_if<NeuralField>(&field)) return visit(*neural);
     return visit(std::get<TableField>(field));
 }
 

@@ -7,7 +7,7 @@
 
 #include "core/base/memory.h"
 #include "core/fields/lobe_model.h"
-#include "core/fields/neural_vertex_model.h"
+#include "core/fields/neural_model.h"
 #include "core/fields/sd_tree_model.h"
 #include "core/fields/volume_grid.h"
 #include "core/scene/pack_scene.h"
@@ -30,8 +30,7 @@ std::size_t bytes_of_each(const FieldSettings& settings, std::size_t light_clust
 
 /// Bytes of the network of a field; 0 without one.
 std::size_t bytes_of_network(const FieldSettings& settings) {
-    if (settings.representation == Representation::Neural) return network_bytes(settings.bins);
-    return settings.representation == Representation::NeuralVertex ? vertex_network_bytes() : 0;
+    return settings.representation == Representation::Neural ? network_bytes() : 0;
 }
 
 /// Number of volumes within the budget.

@@ -1,6 +1,8 @@
 // The size and meaning of a field's arrays: shared by all representations.
 #pragma once
 
+#include <array>
+
 #include "core/kernel/guiding/direction_cells.h"
 #include "core/kernel/guiding/table_update.h"
 #include "core/kernel/guiding/volume_lookup.h"
@@ -10,14 +12,22 @@ namespace pl {
 
 /// How a method that learns represents incident radiance. Files store these numbers.
 enum class Representation : std::uint32_t {
-    Table,         ///< a table of cells per radiance volume
-    SdTree,        ///< quadtrees over directions at the leaves of a binary tree over space   [Mueller et al. 2017]
-    Lobes,         ///< a mixture of von Mises-Fisher lobes per radiance volume   [Ruppert et al. 2020]
-    Neural,        ///< tables, and a network over all volumes as the prior of their probabilities
-    NeuralVertex,  ///< a network that gives every vertex its mixture of lobes, taught by tables   [Dong et al. 2023]
+    Table,   ///< a table of cells per radiance volume
+    SdTree,  ///< quadtrees over directions at the leaves of a binary tree over space   [Mueller et al. 2017]
+    Lobes,   ///< a mixture of von Mises-Fisher lobes per radiance volume   [Ruppert et al. 2020]
+    /// A network that gives every vertex its mixture of lobes, taught by tables   [Dong et al. 2023]. 3 was another one.
+    Neural = 4,
 };
 
-inline constexpr Representation kLastRepresentation = Representation::NeuralVertex;
+/// In the order of FieldArrays.
+inline constexpr std::array kAllRepresentations{Representation::Table, Representation::SdTree, Representation::Lobes,
+                                                Representation::Neural};
+/// Number of a representation in this order; beyond it for a number that is none of them.
+constexpr std::size_t index_of(Representation representation) {
+    std::size_t index = 0;
+    while (index < kAllRepresentations.size() && kAllRepresentations[index] != representation) ++index;
+    return index;
+}
 
 /// Whether tables of radiance volumes keep what is learned: then they are refined, and sampled or the teacher of what is; and both
 /// back ends have kernels for it.
@@ -25,11 +35,9 @@ constexpr bool has_tables(Representation representation) {
     return representation != Representation::SdTree && representation != Representation::Lobes;
 }
 
-/// Whether there are kernels that train a representation by a target: for other targets than that of Expected Sarsa only where
-/// directions are sampled from tables.
+/// Whether there are kernels that train a representation by a target: for other targets than that of Expected Sarsa only for tables.
 constexpr bool has_target(Representation representation, LearningTarget target) {
-    return target == LearningTarget::ExpectedSarsa || representation == Representation::Table ||
-           representation == Representation::Neural;
+    return target == LearningTarget::ExpectedSarsa || representation == Representation::Table;
 }
 
 struct FieldShape {

@@ -73,19 +73,19 @@ float LobeInspector::density(std::int32_t volume, Vec2f square) const {
     return relative_density(mixture_of(volume), square_to_cosine_hemisphere(square));
 }
 
-const VertexMixture& NeuralVertexInspector::mixture_of(std::int32_t volume) const {
+const VertexMixture& NeuralInspector::mixture_of(std::int32_t volume) const {
     if (mixture_volume_ != volume) mixture_ = mixture_of_volume(mixtures, static_cast<std::uint32_t>(volume));
     mixture_volume_ = volume;
     return mixture_;
 }
 
-float NeuralVertexInspector::probability(std::int32_t volume, int cell) const {
+float NeuralInspector::probability(std::int32_t volume, int cell) const {
     float sum = 0.0f;
     for_each_point_of(mixtures.cells, cell, [&](Vec2f square) { sum += density(volume, square); });
     return kPointWeight * sum / static_cast<float>(mixtures.cells.count());
 }
 
-float NeuralVertexInspector::density(std::int32_t volume, Vec2f square) const {
+float NeuralInspector::density(std::int32_t volume, Vec2f square) const {
     return relative_density(mixtures, static_cast<std::uint32_t>(volume), mixture_of(volume),
                             square_to_cosine_hemisphere(square));
 }

@@ -89,8 +89,8 @@ static_assert(FieldInspector<LobeInspector>);
 inline LobeInspector inspector_of(const LobeField& field) { return {field}; }
 
 /// The mixtures at the sites of volumes, by the cells of their tables, whose radiance and samples they are taught by.
-struct NeuralVertexInspector : TableInspector {
-    NeuralVertexField mixtures;
+struct NeuralInspector : TableInspector {
+    NeuralField mixtures;
 
     float probability(std::int32_t volume, int cell) const;
     float density(std::int32_t volume, Vec2f square) const;
@@ -101,10 +101,10 @@ private:
     mutable VertexMixture mixture_{};
     mutable std::int32_t mixture_volume_ = kNoVolume;
 };
-static_assert(FieldInspector<NeuralVertexInspector>);
+static_assert(FieldInspector<NeuralInspector>);
 
-inline NeuralVertexInspector inspector_of(const NeuralVertexField& field) {
-    NeuralVertexInspector inspector;
+inline NeuralInspector inspector_of(const NeuralField& field) {
+    NeuralInspector inspector;
     inspector.field = inspector.mixtures = field;
     return inspector;
 }

@@ -90,6 +90,8 @@ public:
         if (!rest_.empty()) fail(fmt::format("expected its end, got {} more bytes", rest_.size()));
     }
     [[noreturn]] void fail(const std::string& why) const { fail_damaged(path_, what_, why); }
+    const std::filesystem::path& path() const { return path_; }
+    std::string_view what() const { return what_; }
 
 private:
     void require(std::uint64_t count, std::size_t size) const {

@@ -8,6 +8,7 @@
 
 #include "core/base/error.h"
 #include "core/base/square_number.h"
+#include "core/io/field_layout.h"
 #include "core/kernel/base/math.h"
 #include "core/kernel/guiding/network_layout.h"
 
@@ -64,12 +65,9 @@ private:
         require(s.uniform_floor >= 0.0f && s.uniform_floor <= 1.0f, "uniform share", "0 to 1", s.uniform_floor);
         require(s.precompute_samples > 0 && is_square(s.precompute_samples), "precomputed samples",
                 "a square number above 0", s.precompute_samples);
-        require(s.representation <= kLastRepresentation, "representation",
-                fmt::format("0 to {}", static_cast<std::uint32_t>(kLastRepresentation)),
-                static_cast<std::uint32_t>(s.representation));
+        require_representation(s.representation, path_, "field");
         require(has_target(s.representation, s.learning.target), "learning target",
-                "0, that of Expected Sarsa, unless directions are sampled from tables",
-                static_cast<std::uint32_t>(s.learning.target));
+                "0, that of Expected Sarsa, unless it is a table", static_cast<std::uint32_t>(s.learning.target));
         require((s.refine_share >= 0.0f && s.refine_share <= 1.0f) || s.refine_share == kRefineByRecords,
                 "share of added volumes", "0 to 1, or -1", s.refine_share);
     }
@@ -130,15 +128,7 @@ private:
     template <class Size>
     void lengths_of(const HostNeural& field, const Size& size) const {
         lengths_of(static_cast<const HostTables&>(field), size);
-        const HostNeural whole = make_neural(field_.shape, 0);
-        for_each_network_array([&](const auto& spec) { size(spec.name, spec.get(field), spec.get(whole).size()); });
-    }
-
-    template <class Size>
-    void lengths_of(const HostNeuralVertex& field, const Size& size) const {
-        lengths_of(static_cast<const HostTables&>(field), size);
-        const HostNeuralVertex whole = make_neural_vertex(field_.shape, 0);
-        for_each_vertex_array([&](const auto& spec) { size(spec.name, spec.get(field), spec.get(whole).size()); });
+        for_each_network_array([&](const auto& spec) { size(spec.name, spec.get(field), spec.length); });
     }
 
     template <class Size>
@@ -214,11 +204,6 @@ private:
         for_each_lobe_array([&](const auto& spec) { values_of(spec, spec.get(lobes)); });
         if (const std::optional<std::string> damage = damage_of(lobes))
             fail("lobes", fmt::format("mixtures of 1 to {} lobes", kMostLobes), *damage);
-    }
-
-    void arrays_of(const HostNeuralVertex& field) const {
-        arrays_of(static_cast<const HostNeural&>(field));
-        for_each_vertex_array([&](const auto& spec) { values_of(spec, spec.get(field)); });
     }
 
     void arrays_of(const HostNeural& field) const {

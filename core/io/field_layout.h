@@ -34,16 +34,29 @@ void transfer_volumes(Stream& stream, Volumes& volumes) {
     zip_placement(volumes, volumes, [&](const auto&, auto& array) { transfer_array(stream, array); });
 }
 
+/// Throws Error(Input) unless a number that was read from `what`, a file at `path`, is that of a representation.
+inline void require_representation(Representation representation, const std::filesystem::path& path,
+                                   std::string_view what) {
+    constexpr auto kPriorOfTables = static_cast<Representation>(3);
+    if (representation == kPriorOfTables)
+        throw Error(
+            ErrorKind::Input,
+            fmt::format("{}: {} of a representation that is no longer there: expected table, sd-tree, lobes or "
+                        "neural, got tables with a network as their prior",
+                        path.string(), what));
+    if (index_of(representation) == kAllRepresentations.size())
+        fail_damaged(
+            path, what,
+            fmt::format("representation: expected 0, 1, 2 or 4, got {}", static_cast<std::uint32_t>(representation)));
+}
+
 /// The arrays, behind their representation.
 template <class Stream, class Field>
 void transfer_tables(Stream& stream, Field& field) {
     Representation representation = representation_of(field);
     transfer(stream, representation);
     if constexpr (!std::is_const_v<Field>) {
-        if (representation > kLastRepresentation)
-            stream.fail(fmt::format("representation: expected 0 to {}, got {}",
-                                    static_cast<std::uint32_t>(kLastRepresentation),
-                                    static_cast<std::uint32_t>(representation)));
+        require_representation(representation, stream.path(), stream.what());
         clear_to(field, representation);
     }
     std::visit(

@@ -131,10 +131,7 @@ public:
     /// Copy of a method's field; empty arrays if it has none.
     virtual HostField download_field(MethodId method) const = 0;
     virtual bool has_field(MethodId method) const = 0;
-    /// Bytes of the arrays of a method's field.
-    virtual std::size_t field_bytes(MethodId method) const { return pl::field_bytes(download_field(method)); }
-    /// Of the network of a method's field; empty if it has none.
-    virtual std::optional<NetworkStatus> network_status(MethodId) const { return std::nullopt; }
+    virtual FieldReport field_report(MethodId method) const { return report_of(download_field(method)); }
 
     /// Allocates the film in this size and clears it.
     virtual void reset_film(FilmSlot slot, int width, int height) = 0;

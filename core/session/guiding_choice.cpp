@@ -74,11 +74,10 @@ constexpr double kKept = 0.8;
 /// Time that guiding takes at a vertex, over that by a table: rounded from docs/representations.md, on door and cornell.
 double guidance_over_table(Representation representation) {
     switch (representation) {
-    case Representation::Table:
-    case Representation::Neural: return 1.0;
+    case Representation::Table: return 1.0;
     case Representation::SdTree: return 3.0;
     case Representation::Lobes: return 9.0;
-    case Representation::NeuralVertex: return 13.0;
+    case Representation::Neural: return 13.0;
     }
     return 1.0;
 }

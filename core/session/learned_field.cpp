@@ -24,12 +24,9 @@ std::string summary_of(const LearnedField& field) {
         return text(
             fmt::format("SD-tree of {} leaves and {} nodes", tree->first_node.size(), tree->energy.size() / 4));
     if (std::holds_alternative<HostLobes>(field.field)) return text(fmt::format("up to {} lobes", kMostLobes));
-    if (const auto* vertex = std::get_if<HostNeuralVertex>(&field.field))
-        return text(
-            fmt::format("{} lobes at each vertex by a network of {} steps", kVertexLobes, status_of(*vertex).steps));
     if (const auto* neural = std::get_if<HostNeural>(&field.field))
-        return text(fmt::format("{} directions with a network of {} steps", field.shape.cells.count(),
-                                status_of(*neural).steps));
+        return text(
+            fmt::format("{} lobes at each vertex by a network of {} steps", kVertexLobes, status_of(*neural).steps));
     return text(fmt::format("{} directions", field.shape.cells.count()));
 }
 

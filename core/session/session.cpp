@@ -38,22 +38,23 @@ ServedKernel Session::served_kernel(FilmSlot slot) const {
     return pl::served_kernel(backend_->info().name, *scene_.packed(), settings_for(slot));
 }
 
-/// Of a field's arrays. Tables are as large before they are made.
-std::size_t Session::stored_bytes(MethodId method) const {
+/// Tables are as large before they are made.
+FieldReport Session::field_report(MethodId method) const {
     if (representation_of(settings_.field, method) == Representation::Table)
-        return placement_.count() * table_bytes(placement_.bins(), placement_.shape().light_clusters);
-    return backend_->has_field(method) ? backend_->field_bytes(method) : 0;
+        return {.bytes = placement_.count() * table_bytes(placement_.bins(), placement_.shape().light_clusters)};
+    return backend_->field_report(method);
 }
 
 std::optional<FieldStatus> Session::field_status(MethodId method) const {
     if (!placement_.is_placed() || !info_of(method).uses_field) return std::nullopt;
     const FieldProgress& state = field(method);
+    const FieldReport report = field_report(method);
     FieldStatus status{.volumes = static_cast<int>(placement_.count()),
                        .added_volumes = static_cast<int>(placement_.refinement().added),
                        .bins = placement_.bins(),
                        .representation = representation_of(settings_.field, method),
-                       .bytes = volume_bytes(*placement_.volumes()) + stored_bytes(method),
-                       .network = backend_->network_status(method),
+                       .bytes = volume_bytes(*placement_.volumes()) + report.bytes,
+                       .network = report.network,
                        .passes = trained_passes(method),
                        .records = state.records,
                        .clamped_records = state.clamped_records,

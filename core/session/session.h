@@ -118,7 +118,7 @@ private:
     std::uint32_t coarse_probe_count() const;
     bool is_map_complete(MethodId method) const;
     bool coarse_map_suffices(FilmSlot slot) const;
-    std::size_t stored_bytes(MethodId method) const;
+    FieldReport field_report(MethodId method) const;
     FieldProgress& field(MethodId method) { return fields_[static_cast<std::size_t>(method)]; }
     const FieldProgress& field(MethodId method) const { return fields_[static_cast<std::size_t>(method)]; }
 

@@ -68,7 +68,7 @@ SessionState Session::save_state() const {
 std::uint64_t Session::state_bytes() const {
     std::uint64_t bytes = placement_.is_placed() ? volume_bytes(*placement_.volumes()) : 0;
     for (const MethodInfo& method : all_methods()) {
-        bytes += backend_->has_field(method.id) ? backend_->field_bytes(method.id) : 0;
+        bytes += backend_->field_report(method.id).bytes;
         for (const ViewInfo& view : all_views())
             bytes += films_[{method.id, view.id}].is_allocated ? pixel_count() * sizeof(FilmPixel) : 0;
     }

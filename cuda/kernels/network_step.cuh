@@ -1,4 +1,4 @@
-// The step of a segment in which the threads of a warp evaluate the network of a ThreadVertexField together, for those of them that
+// The step of a segment in which the threads of a warp evaluate the network of a ThreadNeuralField together, for those of them that
 // have reached a vertex.
 #pragma once
 
@@ -18,7 +18,7 @@ constexpr std::uint32_t vertices_of_warp() {
     constexpr std::uint32_t kMostBytes = 48 * 1024 - kThreadsPerBlock * sizeof(VertexMixture) - 6 * 1024;
     if (kWarpLanes == 1) return 1;
     std::uint32_t vertices = 16;
-    while (kWarps * kVertexHidden * (vertices + 4) * sizeof(float) > kMostBytes) vertices /= 2;
+    while (kWarps * kHiddenUnits * (vertices + 4) * sizeof(float) > kMostBytes) vertices /= 2;
     return vertices;
 }
 using WarpTile = NetworkTile<kWarpLanes, vertices_of_warp()>;
@@ -35,8 +35,7 @@ __device__ inline float* tile_memory() {
 }
 
 /// Sets the mixture of this thread, whose path has reached a vertex if `is_vertex`. All threads of a block must call it.
-__device__ inline void evaluate_network(const VertexNetworkField& field, bool is_vertex,
-                                        const SurfacePoint& surface) {
+__device__ inline void evaluate_network(const NetworkField& field, bool is_vertex, const SurfacePoint& surface) {
     VertexMixture& mixture = MixturesOfThreads::of({});
     const Vec3f normal = surface.shading_normal;
     if (field.is_lost()) {

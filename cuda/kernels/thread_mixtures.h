@@ -2,7 +2,7 @@
 // location of a vertex it would lie on the stack several times, and the stacks of all threads do not fit the first-level cache.
 #pragma once
 
-#include "core/kernel/guiding/neural_vertex_field.h"
+#include "core/kernel/guiding/neural_field.h"
 #include "core/kernel/methods/guided.h"
 #include "cuda/runtime/launch.h"
 
@@ -11,9 +11,10 @@ namespace pl::cuda {
 /// locate() leaves the mixture to evaluate_network(). For blocks of kThreadsPerBlock.
 struct MixturesOfThreads {
     using Location = TableLocation;
+
     static constexpr bool kInLocation = false;
 
-    static PL_HD Location locate(const VertexNetworkField&, const TableLocation& place, const SurfacePoint&) {
+    static PL_HD Location locate(const NetworkField&, const TableLocation& place, const SurfacePoint&) {
         return place;
     }
     /// That of this thread.
@@ -29,8 +30,8 @@ struct MixturesOfThreads {
     }
 };
 static_assert(sizeof(VertexMixture) / sizeof(float) % 2 == 1);
-using ThreadVertexField = NeuralVertexFieldOf<MixturesOfThreads>;
-static_assert(RadianceField<ThreadVertexField>);
+using ThreadNeuralField = NeuralFieldOf<MixturesOfThreads>;
+static_assert(RadianceField<ThreadNeuralField>);
 
 /// The method by which kernels trace the paths of M.
 template <class M>
@@ -38,8 +39,8 @@ struct KernelMethodOf {
     using Type = M;
 };
 template <template <class> class Target>
-struct KernelMethodOf<Guided<NeuralVertexField, Target>> {
-    using Type = Guided<ThreadVertexField, Target>;
+struct KernelMethodOf<Guided<NeuralField, Target>> {
+    using Type = Guided<ThreadNeuralField, Target>;
 };
 template <class M>
 using KernelMethod = typename KernelMethodOf<M>::Type;
@@ -50,7 +51,7 @@ KernelMethod<M> to_kernel(const M& method) {
         return method;
     } else {
         KernelMethod<M> converted;
-        static_cast<VertexNetworkField&>(converted.field) = method.field;
+        static_cast<NetworkField&>(converted.field) = method.field;
         converted.mixture = method.mixture;
         if constexpr (requires { method.learning; }) converted.learning = method.learning;
         return converted;
@@ -59,6 +60,6 @@ KernelMethod<M> to_kernel(const M& method) {
 
 /// Whether kernels of M evaluate a network for the vertices of a warp, see network_step.cuh.
 template <class M>
-concept NetworkMethod = GuidedMethod<M> && std::same_as<typename M::Field, ThreadVertexField>;
+concept NetworkMethod = GuidedMethod<M> && std::same_as<typename M::Field, ThreadNeuralField>;
 
 }  // namespace pl::cuda

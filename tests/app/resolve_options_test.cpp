@@ -95,11 +95,11 @@ TEST_CASE("wrong values name the option, the expected and the given value") {
          "--learning-rate: expected mean or forgetful, got 'means', did you mean 'mean'?"},
         {{"--learning-rate", "power"}, "--learning-rate: expected mean or forgetful, got 'power'"},
         {{"--field", "sdtree"},
-         "--field: expected table, sd-tree, lobes, neural or neural-vertex, got 'sdtree', did you mean 'sd-tree'?"},
+         "--field: expected table, sd-tree, lobes or neural, got 'sdtree', did you mean 'sd-tree'?"},
         {{"--field", "sd-tree", "--learn-target", "sarsa"},
-         "--learn-target sarsa: expected --field table or neural with it, got --field sd-tree"},
-        {{"--field", "neural-vertex", "--learn-target", "monte-carlo"},
-         "--learn-target monte-carlo: expected --field table or neural with it, got --field neural-vertex"},
+         "--learn-target sarsa: expected --field table with it, got --field sd-tree"},
+        {{"--field", "neural", "--learn-target", "monte-carlo"},
+         "--learn-target monte-carlo: expected --field table with it, got --field neural"},
         {{"--field", "sd-tree", "--method", "precomputed"},
          "--field sd-tree: expected --field table with --method precomputed, whose probes fill tables"},
         {{"--field", "lobes", "--method", "precomputed"},
@@ -215,8 +215,7 @@ TEST_CASE("SD-trees and lobes take the CPU and refuse CUDA, fields with tables d
     for (const auto& [name, representation] :
          {std::pair<std::string, Representation>{"sd-tree", Representation::SdTree},
           {"lobes", Representation::Lobes},
-          {"neural", Representation::Neural},
-          {"neural-vertex", Representation::NeuralVertex}}) {
+          {"neural", Representation::Neural}}) {
         const std::vector<std::string> given{"--method", "reinforcement", "--field", name};
         const Options options = parse(render_with(given));
         CHECK(options.render.field.representation == representation);

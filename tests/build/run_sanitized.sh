@@ -36,7 +36,7 @@ render() {
 
 for folder in "$source"/assets/scenes/*/; do
     for way in default precomputed "reinforcement --field table" "reinforcement --field sd-tree" "reinforcement --field lobes" \
-        "reinforcement --field neural" "reinforcement --field neural-vertex"; do
+        "reinforcement --field neural"; do
         # shellcheck disable=SC2086
         render 0 "$(basename "$folder")" --size 32x32 --spp 4 --guiding always --method $way
     done

@@ -384,8 +384,7 @@ TEST_CASE("A field moves to the device and back in mid-learning without changing
     const SceneDescription scene = shipped_scene("door");
     for (const auto& [method, representation] : {std::pair{MethodId::Precomputed, Representation::Table},
                                                  {MethodId::Reinforcement, Representation::Table},
-                                                 {MethodId::Reinforcement, Representation::Neural},
-                                                 {MethodId::Reinforcement, Representation::NeuralVertex}}) {
+                                                 {MethodId::Reinforcement, Representation::Neural}}) {
         RenderSettings settings = small_settings(scene, {method, false});
         settings.field.representation = representation;
         Session session = make_session(scene, settings);

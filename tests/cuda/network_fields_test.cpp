@@ -1,4 +1,4 @@
-// Fields with networks on the CUDA back end, run on the host: the bits of the CPU back end.
+// Neural fields on the CUDA back end, run on the host: the bits of the CPU back end.
 #include <limits>
 
 #include "tests/cuda/cuda_session.h"
@@ -11,20 +11,13 @@
 using namespace pl;
 using namespace pl::test;
 
-namespace {
-
-constexpr Representation kNetworks[] = {Representation::Neural, Representation::NeuralVertex};
-
-}  // namespace
-
-TEST_CASE("Fields with networks have the bits, the size and the views of the CPU back end") {
+TEST_CASE("Neural fields have the bits, the size and the views of the CPU back end") {
     const SceneDescription scene = shipped_scene("door");
-    for (const Representation representation : kNetworks) {
-        INFO(static_cast<int>(representation));
-        RenderSettings settings = small_settings(scene, {MethodId::Reinforcement, true});
-        settings.field.representation = representation;
-        shim::reset();
-        shim::set_threads(3);
+    RenderSettings settings = small_settings(scene, {MethodId::Reinforcement, true});
+    settings.field.representation = Representation::Neural;
+    shim::reset();
+    shim::set_threads(3);
+    {
         Session cpu = make_session(scene, settings);
         Session cuda = make_cuda_session(scene, settings, kShortLaunches);
         render_passes(cpu, 6);
@@ -36,7 +29,6 @@ TEST_CASE("Fields with networks have the bits, the size and the views of the CPU
         CHECK(got->bytes == expected->bytes);
         CHECK(got->network->steps == expected->network->steps);
         CHECK(got->network->steps > 0);
-        CHECK(got->network->bytes == expected->network->bytes);
         for (const ViewInfo& view : all_views()) {
             INFO(view.name);
             const FilmSlot slot{MethodId::Reinforcement, view.id};
@@ -52,15 +44,15 @@ TEST_CASE("A network that is lost guides by the cosine on both back ends") {
     shim::reset();
     const SceneDescription scene = shipped_scene("door");
     RenderSettings settings = small_settings(scene, {MethodId::Reinforcement, false});
-    settings.field.representation = Representation::NeuralVertex;
+    settings.field.representation = Representation::Neural;
     const auto render_lost = [&](Session session) {
         render_passes(session, 2);
         RenderBackend& backend = session.backend_access();
         HostField field = backend.download_field(MethodId::Reinforcement);
-        std::get<HostNeuralVertex>(field).weights[kVertexLayout.last] = std::numeric_limits<float>::quiet_NaN();
+        std::get<HostNeural>(field).weights[kLastLayer] = std::numeric_limits<float>::quiet_NaN();
         backend.upload_field(MethodId::Reinforcement, std::move(field));
         render_passes(session, 2);
-        CHECK(backend.network_status(MethodId::Reinforcement)->is_lost);
+        CHECK(backend.field_report(MethodId::Reinforcement).network->is_lost);
         return state_of(session);
     };
     CHECK(same_state(render_lost(make_cuda_session(scene, settings)), render_lost(make_session(scene, settings))));

@@ -67,7 +67,6 @@ CaseResult compare_backends(const BackendCase& compared, bool spoil) {
     const auto compare = [&](const auto& x, const auto& y) { compare_arrays(result.tables, x, y); };
     zip(cpu.state.tables, cuda.state.tables, compare);
     zip(cpu.state.neural, cuda.state.neural, compare);
-    zip(cpu.state.vertex, cuda.state.vertex, compare);
     result.same_counters =
         a.passes == b.passes && a.halves.weights == b.halves.weights && test::same_events(a.counters, b.counters);
     return result;

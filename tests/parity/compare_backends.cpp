@@ -70,7 +70,6 @@ std::vector<Learner> all_learners() {
         learners.push_back({method.id, LearningTarget::Sarsa, "sarsa"});
         learners.push_back({method.id, LearningTarget::MonteCarlo, "monte-carlo"});
         learners.push_back({method.id, LearningTarget::ExpectedSarsa, "neural", Representation::Neural});
-        learners.push_back({method.id, LearningTarget::ExpectedSarsa, "neural-vertex", Representation::NeuralVertex});
     }
     return learners;
 }

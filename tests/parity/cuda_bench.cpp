@@ -120,8 +120,7 @@ void measure_methods(const std::shared_ptr<const SceneDescription>& scene, const
 /// `reinforcement` by the representations that the back end serves; the row's label names them.
 void measure_fields(const std::shared_ptr<const SceneDescription>& scene, Size size, double seconds) {
     for (const auto& [label, representation] :
-         {std::pair{"table", Representation::Table}, std::pair{"neural", Representation::Neural},
-          std::pair{"neural-vertex", Representation::NeuralVertex}})
+         {std::pair{"table", Representation::Table}, std::pair{"neural", Representation::Neural}})
         for (const bool next_event : {false, true}) {
             Row row{.scene = "cornell",
                     .label = label,

@@ -38,8 +38,7 @@ FieldSettings random_field(Draws& draws) {
     field.learning.target =
         draws.one_of({LearningTarget::ExpectedSarsa, LearningTarget::Sarsa, LearningTarget::MonteCarlo});
     field.learning.light = draws.one_of({LearnedLight::All, LearnedLight::Indirect});
-    field.representation = draws.one_of(
-        {Representation::Table, Representation::Table, Representation::Neural, Representation::NeuralVertex});
+    field.representation = draws.one_of({Representation::Table, Representation::Table, Representation::Neural});
     if (!has_target(field.representation, field.learning.target))
         field.learning.target = LearningTarget::ExpectedSarsa;
     field.precompute_samples = draws.one_of({1, 4, 9});

@@ -114,10 +114,9 @@ TEST_CASE("Guiding choice: what takes more time at a vertex has to gain more") {
         return PathCosts::of(12, features(Feature::NextEventEstimation), representation, learns).guided_segment();
     };
     CHECK(guided(Representation::Table) > guided(Representation::Table, false));
-    CHECK(guided(Representation::Neural) == guided(Representation::Table));
     CHECK(guided(Representation::SdTree) > guided(Representation::Table));
     CHECK(guided(Representation::Lobes) > guided(Representation::SdTree));
-    CHECK(guided(Representation::NeuralVertex) > guided(Representation::Lobes));
+    CHECK(guided(Representation::Neural) > guided(Representation::Lobes));
 }
 
 TEST_CASE("Guiding choice: a warm-up ends early with a clear gain or a loss") {

@@ -20,11 +20,9 @@ struct Represented {
     /// below the surface, and the density of a tree has steps.
     double largest_sum;
 };
-constexpr Represented kRepresented[] = {
-    {Representation::SdTree, "SD-tree of", 0.8},
-    {Representation::Lobes, "up to 16 lobes", 0.7},
-    {Representation::Neural, "64 directions with a network of ", 0.7},
-    {Representation::NeuralVertex, "8 lobes at each vertex by a network of ", 0.7}};
+constexpr Represented kRepresented[] = {{Representation::SdTree, "SD-tree of", 0.8},
+                                        {Representation::Lobes, "up to 16 lobes", 0.7},
+                                        {Representation::Neural, "8 lobes at each vertex by a network of ", 0.7}};
 
 RenderSettings settings_of(const Represented& field, const SceneDescription& scene, bool next_event = false) {
     RenderSettings settings = small_settings(scene, {MethodId::Reinforcement, next_event});
@@ -41,8 +39,7 @@ LargeArray<float> mean_radiance_of(const Session& session) {
 std::size_t fewest_bytes(Representation representation, std::size_t volumes) {
     switch (representation) {
     case Representation::Lobes: return volumes * lobe_bytes();
-    case Representation::Neural: return volumes * table_bytes(64) + network_bytes(64);
-    case Representation::NeuralVertex: return volumes * table_bytes(64) + vertex_network_bytes();
+    case Representation::Neural: return volumes * table_bytes(64) + network_bytes();
     default: return 10000;
     }
 }
@@ -173,8 +170,7 @@ TEST_CASE("The learned radiance of any representation is inspected, shown and co
         CHECK(largest < 1.4);
         const FieldStatus status = *session.field_status(MethodId::Reinforcement);
         CHECK(status.representation == represented.representation);
-        CHECK(status.network.has_value() == (represented.representation == Representation::Neural ||
-                                             represented.representation == Representation::NeuralVertex));
+        CHECK(status.network.has_value() == (represented.representation == Representation::Neural));
         CHECK(status.bytes > fewest_bytes(represented.representation, static_cast<std::size_t>(volumes)));
         CHECK((represented.representation != Representation::SdTree || static_cast<double>(status.bytes) < 1.0e6));
         check_views(session);
@@ -188,8 +184,8 @@ TEST_CASE("The number of volumes with lobes or a network is what the budget hold
         RenderSettings settings = settings_of(represented, scene);
         settings.field.volumes = 0;
         settings.field.bins = 16;
-        // The network at every vertex alone has 0.47.
-        const double megabytes = represented.representation == Representation::NeuralVertex ? 0.8 : 0.3;
+        // The network alone has 0.47.
+        const double megabytes = represented.representation == Representation::Neural ? 0.8 : 0.3;
         settings.field.budget_megabytes = megabytes;
         Session session = make_session(scene, settings, 2);
         render_passes(session, 20);

@@ -93,7 +93,7 @@ TEST_CASE("a pass that does not train traces the paths of one that does") {
                                {LearningTarget::MonteCarlo},
                                {LearningTarget::ExpectedSarsa, Representation::SdTree},
                                {LearningTarget::ExpectedSarsa, Representation::Lobes},
-                               {LearningTarget::ExpectedSarsa, Representation::NeuralVertex}};
+                               {LearningTarget::ExpectedSarsa, Representation::Neural}};
     for (const std::string name : {"door", "boxed-lights", "plates"}) {
         const SceneDescription scene = shipped_scene(name);
         for (const Case& c : kCases) {

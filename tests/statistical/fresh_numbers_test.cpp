@@ -72,9 +72,7 @@ constexpr Learner kLearners[] = {{"table", Representation::Table, false},
                                  {"lobes", Representation::Lobes, false},
                                  {"lobes", Representation::Lobes, true},
                                  {"neural", Representation::Neural, false},
-                                 {"neural", Representation::Neural, true},
-                                 {"neural-vertex", Representation::NeuralVertex, false},
-                                 {"neural-vertex", Representation::NeuralVertex, true}};
+                                 {"neural", Representation::Neural, true}};
 
 struct Effort {
     int side;  ///< of the picture
@@ -111,9 +109,7 @@ void check(const KnownScene& known, const Learner& learner, const Effort& effort
 
 }  // namespace
 
-bool has_table_or_lobes(const Learner& learner) {
-    return learner.representation != Representation::Neural && learner.representation != Representation::NeuralVertex;
-}
+bool has_table_or_lobes(const Learner& learner) { return learner.representation != Representation::Neural; }
 
 /// 0.02 % are five standard errors.
 constexpr double kNightly = 0.0002 / 5.0 * (kZAlpha + kZBeta);
@@ -125,7 +121,7 @@ std::uint32_t passes_for(const Learner& learner) {
 }
 
 // Seeds 1 to 64, alpha 1e-6 per decision. An SD-tree was off by 0.3 % after 256 passes while its numbers went on through updates. The
-// networks, which are slower, are in the nightly tier.
+// network, which is slower, is in the nightly tier.
 TEST_CASE("Pictures of learners under a bright patch have no bias of 0.1 % while tables change") {
     const KnownScene patch = plane_under_patch();
     for (const Learner& learner : kLearners)

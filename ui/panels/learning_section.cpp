@@ -83,15 +83,15 @@ void draw_field(ViewerModel& model) {
             &mixture.bsdf_fraction, {kMinBsdfFraction, 1.0f, MixtureSettings{}.bsdf_fraction, "%.2f"}))
         model.render().set_mixture(mixture);
     FieldSettings settings = model.render().settings().field;
-    int representation = static_cast<int>(settings.representation);
+    auto representation = static_cast<int>(index_of(settings.representation));
     if (choice_row(
             "Field",
             "How a method that learns represents directions. Table: cells of each volume. SD-tree: quadtrees at the "
-            "leaves of a tree over space. Lobes: a mixture of smooth peaks in each volume. Neural: tables with a "
-            "network over all volumes as prior. Neural vertex: a network that gives each vertex a mixture of smooth "
-            "peaks. SD-tree and lobes on the CPU alone; precomputed maps are tables.",
-            &representation, "Table\0SD-tree\0Lobes\0Neural\0Neural vertex\0")) {
-        settings.representation = static_cast<Representation>(representation);
+            "leaves of a tree over space. Lobes: a mixture of smooth peaks in each volume. Neural: a network that "
+            "gives each vertex a mixture of smooth peaks. SD-tree and lobes on the CPU alone; precomputed maps are "
+            "tables.",
+            &representation, "Table\0SD-tree\0Lobes\0Neural\0")) {
+        settings.representation = kAllRepresentations[static_cast<std::size_t>(representation)];
         if (!has_target(settings.representation, settings.learning.target))
             settings.learning.target = LearningTarget::ExpectedSarsa;
         model.render().set_field(settings);

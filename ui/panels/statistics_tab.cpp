@@ -67,12 +67,9 @@ void draw_paths(const ViewerModel& model, const Snapshot& snapshot) {
              c.invalid_samples > 0 ? colors::kWarning : colors::kText);
 }
 
-const char* network_hint(Representation representation, bool is_lost) {
-    if (representation == Representation::NeuralVertex)
-        return is_lost ? "Its loss or weights were not finite: directions are guided by the cosine."
-                       : "Gives every vertex the mixture of lobes that guides it.";
-    return is_lost ? "Its loss or weights were not finite: tables are sampled without it."
-                   : "Predicts the light in all volumes, the prior of their tables.";
+const char* network_hint(bool is_lost) {
+    return is_lost ? "Its loss or weights were not finite: directions are guided by the cosine."
+                   : "Gives every vertex the mixture of lobes that guides it.";
 }
 
 void draw_field(const std::optional<FieldStatus>& field) {
@@ -93,10 +90,9 @@ void draw_field(const std::optional<FieldStatus>& field) {
         text_row("Network",
                  field->network->is_lost
                      ? std::string("lost")
-                     : fmt::format("{}B, {} steps", short_number(static_cast<double>(field->network->bytes)),
+                     : fmt::format("{}B, {} steps", short_number(static_cast<double>(network_bytes())),
                                    field->network->steps),
-                 network_hint(field->representation, field->network->is_lost),
-                 field->network->is_lost ? colors::kWarning : colors::kText);
+                 network_hint(field->network->is_lost), field->network->is_lost ? colors::kWarning : colors::kText);
     text_row("Memory", short_number(static_cast<double>(field->bytes)) + "B");
     text_row("Passes", fmt::format("{}", field->passes), "Passes whose training samples the field has learned from.");
     text_row("Samples", count_text(field->records), "Training samples.");

@@ -1,4 +1,4 @@
-// The inputs of the networks of neural fields: learned features of grids around a place, and the normal.
+// The inputs of the network of a neural field: learned features of grids around a place, and the normal.
 #pragma once
 
 #include "core/kernel/base/math.h"
@@ -6,7 +6,7 @@
 
 namespace pl {
 
-/// Where a network is asked. `place` is in the unit cube.
+/// Where the network is asked. `place` is in the unit cube.
 struct NetworkPoint {
     Vec3f place, normal;
 };

@@ -1,4 +1,4 @@
-// The networks of neural fields: the sizes of their grids and layers, and the places of their weights in one array.
+// The network of neural fields: the sizes of its grids and layers, and the places of its weights in one array.
 #pragma once
 
 #include <cstdint>
@@ -11,8 +11,7 @@ namespace pl {
 /// Changes with the sizes below: weights of another layout are refused.
 inline constexpr std::uint32_t kNetworkLayoutVersion = 1;
 
-/// Points to a side of the grids of learned features, which are interpolated at the position of a volume or of a vertex; the coarsest
-/// first.   [Mueller et al. 2022, dense levels]
+/// Points to a side of the grids of learned features, which are interpolated at the position of a vertex; the coarsest first.   [Mueller et al. 2022, dense levels]
 inline constexpr std::uint32_t kGrids = 3;
 PL_HD constexpr std::uint32_t grid_side(std::uint32_t grid) { return 4u << grid; }
 inline constexpr std::uint32_t kFeatures = 4;  ///< of a point of a grid
@@ -28,40 +27,46 @@ inline constexpr std::uint32_t kNormalInput = kGrids * kFeatures;
 inline constexpr std::uint32_t kConstantInput = kNormalInput + 6;
 static_assert(kConstantInput < kInputs);
 
-/// Units of each of the two hidden layers of a network over volumes, and those that are added to the rows of any hidden layer: a
-/// constant 1 for the bias, and zeros.
-inline constexpr std::uint32_t kVolumeHidden = 32;
+inline constexpr std::uint32_t kVertexLobes = 8;
+
+/// Outputs, [parameter][lobe]: by them lobes differ from those of an untrained network, see vertex_lobe().
+enum VertexParameter : std::uint32_t {
+    kLobeLogit,  ///< logarithm of its weight
+    kLobeX,      ///< of the vector whose direction is its mean
+    kLobeY,
+    kLobeZ,
+    kLobeNarrowness,  ///< logarithm of its concentration
+    kVertexParameters
+};
+inline constexpr std::uint32_t kVertexOutputs = kVertexParameters * kVertexLobes;
+
+/// Units of each of the two hidden layers, and those that are added to the rows of any hidden layer: a constant 1 for the bias, and
+/// zeros.
+inline constexpr std::uint32_t kHiddenUnits = 64;
 inline constexpr std::uint32_t kBiasUnits = 4;
+inline constexpr std::uint32_t kHiddenRow = kHiddenUnits + kBiasUnits;
 /// Slope of a hidden unit below 0.
 inline constexpr float kLeak = 0.1f;
 
 enum NetworkCount : std::uint32_t {
     kNetworkSteps,    ///< of gradient descent so far
-    kNetworkIsLost,   ///< 1: weights or loss were not finite, so that directions are sampled without it; else 0
+    kNetworkIsLost,   ///< 1: weights or loss were not finite, so that directions are sampled by the cosine; else 0
     kNetworkVersion,  ///< kNetworkLayoutVersion of the weights
     kNetworkCounts,
 };
 
 /// Columns of matrices are multiples of this.
 inline constexpr std::uint32_t kColumnBlock = 32;
+static_assert(kHiddenUnits % kColumnBlock == 0);
+/// Of the last layer: the outputs, and unused ones.
+inline constexpr std::uint32_t kOutputColumns = (kVertexOutputs + kColumnBlock - 1) / kColumnBlock * kColumnBlock;
 
 /// Places of the weights: grids [level][z][y][x][feature], then the layers, [input][unit].
-struct NetworkLayout {
-    std::uint32_t hidden;   ///< units of each of the two hidden layers, a multiple of kColumnBlock
-    std::uint32_t columns;  ///< of the last layer: the outputs, and unused ones
-    std::size_t first = 0, second = 0, last = 0;
-    std::size_t count = 0;
-
-    constexpr explicit NetworkLayout(std::uint32_t outputs, std::uint32_t hidden_units = kVolumeHidden)
-        : hidden(hidden_units), columns((outputs + kColumnBlock - 1) / kColumnBlock * kColumnBlock) {
-        for (std::uint32_t grid = 0; grid < kGrids; ++grid) first += grid_values(grid);
-        second = first + std::size_t{kInputs} * hidden;
-        last = second + std::size_t{hidden_row()} * hidden;
-        count = last + std::size_t{hidden_row()} * columns;
-    }
-
-    constexpr std::uint32_t hidden_row() const { return hidden + kBiasUnits; }
-};
+inline constexpr std::size_t kFirstLayer = grid_values(0) + grid_values(1) + grid_values(2);
+static_assert(kGrids == 3);
+inline constexpr std::size_t kSecondLayer = kFirstLayer + std::size_t{kInputs} * kHiddenUnits;
+inline constexpr std::size_t kLastLayer = kSecondLayer + std::size_t{kHiddenRow} * kHiddenUnits;
+inline constexpr std::size_t kNetworkWeights = kLastLayer + std::size_t{kHiddenRow} * kOutputColumns;
 
 PL_INLINE float activated(float sum) { return sum > 0.0f ? sum : kLeak * sum; }
 

@@ -19,7 +19,7 @@ class NetworkTile {
 public:
     static constexpr std::uint32_t kVertices = kOfTile;
     /// Floats of memory that the lanes share, aligned to 16 bytes.
-    static constexpr std::uint32_t kMemory = kVertexHidden * kRow;
+    static constexpr std::uint32_t kMemory = kHiddenUnits * kRow;
 
     PL_HD NetworkTile(float* memory, std::uint32_t lane)
         : memory_(memory), unit_(lane % kUnitLanes), vertex_(lane / kUnitLanes * kLaneVertices) {}
@@ -31,14 +31,13 @@ public:
     /// Of an output below kVertexOutputs.
     PL_HD float output(std::uint32_t vertex, std::uint32_t number) const { return memory_[number * kRow + vertex]; }
 
-    /// Outputs of all vertices from their inputs. weights: of kVertexLayout. All lanes must call it; they wait for each other in wait().
+    /// Outputs of all vertices from their inputs. weights: as in network_layout.h. All lanes must call it; they wait for each other in wait().
     template <class Wait>
     PL_HD_INLINED void evaluate(const float* weights, Wait&& wait) const {
-        constexpr NetworkLayout kLayout = kVertexLayout;
         wait();
-        compute_layer<kVertexHidden, true>(kConstantInput, weights + kLayout.first, kLayout.hidden, wait);
-        compute_layer<kVertexHidden, true>(kVertexHidden, weights + kLayout.second, kLayout.hidden, wait);
-        compute_layer<kVertexOutputs, false>(kVertexHidden, weights + kLayout.last, kLayout.columns, wait);
+        compute_layer<kHiddenUnits, true>(kConstantInput, weights + kFirstLayer, kHiddenUnits, wait);
+        compute_layer<kHiddenUnits, true>(kHiddenUnits, weights + kSecondLayer, kHiddenUnits, wait);
+        compute_layer<kVertexOutputs, false>(kHiddenUnits, weights + kLastLayer, kOutputColumns, wait);
     }
 
 private:
@@ -46,7 +45,7 @@ private:
     template <std::uint32_t kUnits>
     struct Sums {
         static constexpr std::uint32_t kLaneUnits = (kUnits + kUnitLanes - 1) / kUnitLanes;
-        static_assert(kLaneUnits * kUnitLanes <= kVertexHidden, "units beyond the last are computed, too");
+        static_assert(kLaneUnits * kUnitLanes <= kHiddenUnits, "units beyond the last are computed, too");
         float of[kLaneUnits][kLaneVertices] = {};
     };
 

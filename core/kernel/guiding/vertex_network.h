@@ -7,24 +7,9 @@
 
 namespace pl {
 
-inline constexpr std::uint32_t kVertexLobes = 8;
-
-/// Outputs of the network, [parameter][lobe]: by them lobes differ from those of an untrained network, see vertex_lobe().
-enum VertexParameter : std::uint32_t {
-    kLobeLogit,  ///< logarithm of its weight
-    kLobeX,      ///< of the vector whose direction is its mean
-    kLobeY,
-    kLobeZ,
-    kLobeNarrowness,  ///< logarithm of its concentration
-    kVertexParameters
-};
-inline constexpr std::uint32_t kVertexOutputs = kVertexParameters * kVertexLobes;
-inline constexpr std::uint32_t kVertexHidden = 64;
-inline constexpr NetworkLayout kVertexLayout(kVertexOutputs, kVertexHidden);
-
 /// Outputs that are computed: a multiple of any vector's width.
 inline constexpr std::uint32_t kVertexColumns = (kVertexOutputs + 15) / 16 * 16;
-static_assert(kVertexColumns <= kVertexLayout.columns);
+static_assert(kVertexColumns <= kOutputColumns);
 
 /// outputs: [kVertexColumns], from inputs: [kInputs].
 using VertexEvaluator = void (*)(const float* weights, const float* inputs, float* outputs);
@@ -52,13 +37,12 @@ PL_INLINE void sum_units(const float* inputs, std::uint32_t count, const float* 
 
 template <class Real>
 PL_INLINE void evaluate_vertex(const float* weights, const float* inputs, float* outputs) {
-    constexpr NetworkLayout kLayout = kVertexLayout;
-    float first[kVertexHidden + 1], second[kVertexHidden + 1];
-    sum_units<Real, kVertexHidden>(inputs, kConstantInput + 1, weights + kLayout.first, kVertexHidden, first);
-    activate_units(first, kVertexHidden);
-    sum_units<Real, kVertexHidden>(first, kVertexHidden + 1, weights + kLayout.second, kVertexHidden, second);
-    activate_units(second, kVertexHidden);
-    sum_units<Real, kVertexColumns>(second, kVertexHidden + 1, weights + kLayout.last, kLayout.columns, outputs);
+    float first[kHiddenUnits + 1], second[kHiddenUnits + 1];
+    sum_units<Real, kHiddenUnits>(inputs, kConstantInput + 1, weights + kFirstLayer, kHiddenUnits, first);
+    activate_units(first, kHiddenUnits);
+    sum_units<Real, kHiddenUnits>(first, kHiddenUnits + 1, weights + kSecondLayer, kHiddenUnits, second);
+    activate_units(second, kHiddenUnits);
+    sum_units<Real, kVertexColumns>(second, kHiddenUnits + 1, weights + kLastLayer, kOutputColumns, outputs);
 }
 
 }  // namespace pl

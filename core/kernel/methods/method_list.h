@@ -4,7 +4,7 @@
 
 #include "core/kernel/base/type_list.h"
 #include "core/kernel/guiding/lobe_field.h"
-#include "core/kernel/guiding/neural_vertex_field.h"
+#include "core/kernel/guiding/neural_field.h"
 #include "core/kernel/guiding/sd_tree_field.h"
 #include "core/kernel/guiding/table_field.h"
 #include "core/kernel/methods/default.h"
@@ -38,7 +38,7 @@ using MethodList = TypeList<
     MethodKernel<Reinforcement, Guided<TableField, ExpectedSarsa>>,
     MethodKernel<Reinforcement, Guided<TableField, Sarsa>, KernelRange::Sparse>,
     MethodKernel<Reinforcement, Guided<TableField, MonteCarlo>, KernelRange::Sparse>,
-    MethodKernel<Reinforcement, Guided<NeuralVertexField, ExpectedSarsa>, KernelRange::Sparse>,
+    MethodKernel<Reinforcement, Guided<NeuralField, ExpectedSarsa>, KernelRange::Sparse>,
     HostKernel<Reinforcement, Guided<SdTreeField, ExpectedSarsa>, KernelRange::Sparse>,
     HostKernel<Reinforcement, Guided<LobeField, ExpectedSarsa>, KernelRange::Sparse>
 >;

@@ -247,17 +247,17 @@ TEST_CASE("5: the gate fails only when the whole interval is slower") {
 
 TEST_CASE("a bench compares representations as methods of their own") {
     const TempDir folder;
-    make(folder / "b", {"--method", "default,reinforcement", "--field", "table,neural-vertex", "--nee", "off"});
+    make(folder / "b", {"--method", "default,reinforcement", "--field", "table,neural", "--nee", "off"});
     const json results = results_in(folder / "b");
     std::vector<std::string> methods;
     for (const json& row : results.at("summary")) methods.push_back(row.at("method"));
-    CHECK((methods == std::vector<std::string>{"default", "reinforcement-table", "reinforcement-neural-vertex"}));
+    CHECK((methods == std::vector<std::string>{"default", "reinforcement-table", "reinforcement-neural"}));
     CHECK(results.at("comparisons").size() == 2);
     const auto errors = errors_in(folder / "b");
-    CHECK(errors.at({"reinforcement-table", 1}) != errors.at({"reinforcement-neural-vertex", 1}));
+    CHECK(errors.at({"reinforcement-table", 1}) != errors.at({"reinforcement-neural", 1}));
     // One representation, and the table without any.
-    make(folder / "c", {"--method", "reinforcement", "--field", "neural-vertex", "--nee", "off"});
-    CHECK(errors_in(folder / "c").at({"reinforcement", 1}) == errors.at({"reinforcement-neural-vertex", 1}));
+    make(folder / "c", {"--method", "reinforcement", "--field", "neural", "--nee", "off"});
+    CHECK(errors_in(folder / "c").at({"reinforcement", 1}) == errors.at({"reinforcement-neural", 1}));
     make(folder / "d", {"--method", "reinforcement", "--nee", "off"});
     CHECK(errors_in(folder / "d").at({"reinforcement", 1}) == errors.at({"reinforcement-table", 1}));
 }

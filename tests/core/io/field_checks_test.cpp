@@ -161,7 +161,11 @@ TEST_CASE("Damaged SD-trees in files are refused, whole ones come back") {
     CHECK_THAT(refused([&](LearnedField& f) { f.method = MethodId::Precomputed; }),
                contains("representation of the arrays: expected 0, got 1"));
     CHECK_THAT(refused([&](LearnedField& f) { f.settings.representation = static_cast<Representation>(5); }),
-               contains("representation: expected 0 to 4, got 5"));
+               contains("representation: expected 0, 1, 2 or 4, got 5"));
+    CHECK_THAT(
+        refused([&](LearnedField& f) { f.settings.representation = static_cast<Representation>(3); }),
+        contains("field of a representation that is no longer there: expected table, sd-tree, lobes or neural, got "
+                 "tables with a network as their prior"));
 }
 
 TEST_CASE("Damaged lobes in files are refused, whole ones come back") {
@@ -196,7 +200,7 @@ TEST_CASE("Damaged networks in files are refused, whole ones come back") {
     field.method = MethodId::Reinforcement;
     field.settings.representation = field.shape.representation = Representation::Neural;
     field.field = make_field(field.shape, kVolumes, Representation::Neural);
-    std::get<HostNeural>(field.field).counts[kNetworkSteps] = 7;
+    std::get<HostNeural>(field.field).counts[kNetworkSteps] = 9;
     const auto refused = [&](const std::function<void(HostNeural&)>& change) {
         LearnedField damaged = field;
         change(std::get<HostNeural>(damaged.field));
@@ -204,46 +208,19 @@ TEST_CASE("Damaged networks in files are refused, whole ones come back") {
         return input_error([&] { read_field(folder.path() / "field"); });
     };
     write_field(folder.path() / "field", field);
-    CHECK(status_of(std::get<HostNeural>(read_field(folder.path() / "field").field)).steps == 7);
-    CHECK_THAT(refused([](HostNeural& neural) { neural.weights[2] = kNan; }),
-               contains("damaged field: weight of place 2: expected a finite number, got nan"));
+    CHECK(status_of(std::get<HostNeural>(read_field(folder.path() / "field").field)).steps == 9);
+    CHECK_THAT(refused([](HostNeural& neural) { neural.average[2] = kNan; }),
+               contains("damaged field: average of place 2: expected a finite number, got nan"));
+    CHECK_THAT(refused([](HostNeural& neural) { neural.weights[3] = kInfinity; }),
+               contains("weight of place 3: expected a finite number, got inf"));
     CHECK_THAT(refused([](HostNeural& neural) { neural.slope_square[1] = -1.0f; }),
                contains("square of the slope of place 1: expected 0 or more, got -1"));
-    CHECK_THAT(refused([](HostNeural& neural) { neural.weights.pop_back(); }),
-               contains("weights of the network: expected"));
+    CHECK_THAT(refused([](HostNeural& neural) { neural.average.pop_back(); }),
+               contains("averages of weights: expected"));
     CHECK_THAT(refused([](HostNeural& neural) { neural.counts[kNetworkIsLost] = 2; }),
                contains("network: expected weights of layout 1, got mark of loss 2"));
     CHECK_THAT(refused([](HostNeural& neural) { neural.counts[kNetworkVersion] = 9; }), contains("got layout 9"));
     CHECK_THAT(refused([](HostNeural& neural) { neural.column_cdf[0] = 2.0f; }),
-               contains("entry 0 of the column table"));
-}
-
-TEST_CASE("Damaged networks for vertices in files are refused, whole ones come back") {
-    const TemporaryFolder folder;
-    LearnedField field = small_field();
-    field.method = MethodId::Reinforcement;
-    field.settings.representation = field.shape.representation = Representation::NeuralVertex;
-    field.field = make_field(field.shape, kVolumes, Representation::NeuralVertex);
-    std::get<HostNeuralVertex>(field.field).counts[kNetworkSteps] = 9;
-    const auto refused = [&](const std::function<void(HostNeuralVertex&)>& change) {
-        LearnedField damaged = field;
-        change(std::get<HostNeuralVertex>(damaged.field));
-        write_field(folder.path() / "field", damaged);
-        return input_error([&] { read_field(folder.path() / "field"); });
-    };
-    write_field(folder.path() / "field", field);
-    CHECK(status_of(std::get<HostNeuralVertex>(read_field(folder.path() / "field").field)).steps == 9);
-    CHECK_THAT(refused([](HostNeuralVertex& vertex) { vertex.average[2] = kNan; }),
-               contains("damaged field: average of place 2: expected a finite number, got nan"));
-    CHECK_THAT(refused([](HostNeuralVertex& vertex) { vertex.weights[3] = kInfinity; }),
-               contains("weight of place 3: expected a finite number, got inf"));
-    CHECK_THAT(refused([](HostNeuralVertex& vertex) { vertex.slope_square[1] = -1.0f; }),
-               contains("square of the slope of place 1: expected 0 or more, got -1"));
-    CHECK_THAT(refused([](HostNeuralVertex& vertex) { vertex.average.pop_back(); }),
-               contains("averages of weights: expected"));
-    CHECK_THAT(refused([](HostNeuralVertex& vertex) { vertex.counts[kNetworkIsLost] = 2; }),
-               contains("network: expected weights of layout 1, got mark of loss 2"));
-    CHECK_THAT(refused([](HostNeuralVertex& vertex) { vertex.column_cdf[0] = 2.0f; }),
                contains("entry 0 of the column table"));
 }
 

@@ -109,14 +109,14 @@ PL_HD constexpr auto members(TableField& v) {
     static_assert(member_count<TableField>() == 1);
     return std::tie(base_of<TableView>(v));
 }
-PL_HD constexpr auto members(VertexNetworkField& v) {
+PL_HD constexpr auto members(NetworkField& v) {
     const auto all = std::tie(base_of<TableField>(v), v.evaluate, v.weights, v.counts, v.corner, v.edge);
-    static_assert(std::tuple_size_v<decltype(all)> == member_count<VertexNetworkField>());
+    static_assert(std::tuple_size_v<decltype(all)> == member_count<NetworkField>());
     return all;
 }
-PL_HD constexpr auto members(cuda::ThreadVertexField& v) {
-    static_assert(member_count<cuda::ThreadVertexField>() == 1);
-    return std::tie(base_of<VertexNetworkField>(v));
+PL_HD constexpr auto members(cuda::ThreadNeuralField& v) {
+    static_assert(member_count<cuda::ThreadNeuralField>() == 1);
+    return std::tie(base_of<NetworkField>(v));
 }
 PL_HD constexpr auto members(TableUpdateView& v) {
     const auto all = std::tie(base_of<TableArrays<Span, Span>>(v), v.cells, v.light_clusters, v.radiance_unit,

@@ -1,4 +1,4 @@
-// Tables of volumes on a plane that have learned parts of a light by hand, and the network over them.
+// Tables of volumes on a plane that have learned parts of a light by hand, and the network that they teach.
 #pragma once
 
 #include "core/fields/neural_model.h"
@@ -39,7 +39,7 @@ struct TestNeural {
 
     std::uint32_t count() const { return static_cast<std::uint32_t>(volumes.sites.size()); }
     HostTables& tables() { return field; }
-    TableField view() { return field_view(shape, volumes, field); }
+    NeuralField view() { return field_view(shape, volumes, field); }
     /// One volume in seven has no training samples.
     static bool is_held_out(std::uint32_t volume) { return volume % 7 == 3; }
 
@@ -75,17 +75,27 @@ struct TestNeural {
         }
     }
 
-    /// Kullback-Leibler divergence of the probabilities by which a volume samples its cells from its light.
+    static SurfacePoint point_at(Vec3f position, Vec3f normal = {0.0f, 0.0f, 1.0f}) {
+        SurfacePoint point;
+        point.position = position;
+        point.geometric_normal = {0.0f, 0.0f, 1.0f};
+        point.shading_normal = glm::normalize(normal);
+        return point;
+    }
+
+    /// Kullback-Leibler divergence of the mixture at the site of a volume from the light of its cells.
     double divergence(std::uint32_t volume) {
-        const DirectionTable table(view(), static_cast<std::int32_t>(volume));
-        const int side = shape.cells.side;
+        const NeuralField field_of_view = view();
+        const VertexMixture mixture = mixture_of_volume(field_of_view, volume);
+        const DirectionCells cells = shape.cells;
         double total = 0.0;
-        for (int cell = 0; cell < shape.cells.count(); ++cell) total += static_cast<double>(light_of(volume, cell));
+        for (int cell = 0; cell < cells.count(); ++cell) total += static_cast<double>(light_of(volume, cell));
         double sum = 0.0;
-        for (int cell = 0; cell < shape.cells.count(); ++cell) {
+        for (int cell = 0; cell < cells.count(); ++cell) {
             const double truth = static_cast<double>(light_of(volume, cell)) / total;
-            const auto sampled = static_cast<double>(table.cell_probability(cell % side, cell / side));
-            sum += truth * std::log(truth / sampled);
+            const Vec3f local = square_to_cosine_hemisphere(cells.point_in_cell(cell, Vec2f{0.5f}));
+            const double relative = static_cast<double>(relative_density(field_of_view, volume, mixture, local));
+            sum += truth * std::log(truth * cells.count() / relative);
         }
         return sum;
     }

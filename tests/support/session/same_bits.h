@@ -23,7 +23,6 @@ inline bool same_bits(const HostTables& a, const HostTables& b) { return same_ar
 inline bool same_bits(const HostSdTree& a, const HostSdTree& b) { return same_arrays(a, b); }
 inline bool same_bits(const HostLobes& a, const HostLobes& b) { return same_arrays(a, b); }
 inline bool same_bits(const HostNeural& a, const HostNeural& b) { return same_arrays(a, b); }
-inline bool same_bits(const HostNeuralVertex& a, const HostNeuralVertex& b) { return same_arrays(a, b); }
 
 inline bool same_events(const PassCounters& a, const PassCounters& b) {
     static_assert(std::has_unique_object_representations_v<PassCounters>);
@@ -37,7 +36,6 @@ struct State {
     HostSdTree tree{};
     HostLobes lobes{};
     HostNeural neural{};
-    HostNeuralVertex vertex{};
 };
 
 inline State state_of(Session& session, FilmSlot slot) {
@@ -49,8 +47,6 @@ inline State state_of(Session& session, FilmSlot slot) {
         state.lobes = std::move(*lobes);
     else if (auto* neural = std::get_if<HostNeural>(&field))
         state.neural = std::move(*neural);
-    else if (auto* vertex = std::get_if<HostNeuralVertex>(&field))
-        state.vertex = std::move(*vertex);
     else
         state.tables = tables_of(std::move(field));
     return state;
@@ -66,7 +62,7 @@ inline bool same_film(const State& a, const State& b) {
 inline bool same_state(const State& a, const State& b) {
     return same_film(a, b) && same_events(a.snapshot.counters, b.snapshot.counters) &&
            same_bits(a.tables, b.tables) && same_bits(a.tree, b.tree) && same_bits(a.lobes, b.lobes) &&
-           same_bits(a.neural, b.neural) && same_bits(a.vertex, b.vertex);
+           same_bits(a.neural, b.neural);
 }
 
 }  // namespace pl::test

@@ -38,19 +38,6 @@ inline constexpr Variant kVariants[] = {
     {"lobes, light samples", true, LearningRate::Forgetful, {}, RouletteRule::Spare, Representation::Lobes},
     {"neural", false, LearningRate::Forgetful, {}, RouletteRule::Spare, Representation::Neural},
     {"neural, light samples", true, LearningRate::Forgetful, {}, RouletteRule::Spare, Representation::Neural},
-    {"neural, Monte Carlo",
-     true,
-     LearningRate::Forgetful,
-     {LearningTarget::MonteCarlo, LearnedLight::Indirect},
-     RouletteRule::Spare,
-     Representation::Neural},
-    {"neural vertex", false, LearningRate::Forgetful, {}, RouletteRule::Spare, Representation::NeuralVertex},
-    {"neural vertex, light samples",
-     true,
-     LearningRate::Forgetful,
-     {},
-     RouletteRule::Spare,
-     Representation::NeuralVertex},
 };
 
 }  // namespace pl::test

@@ -84,12 +84,12 @@ TEST_CASE("Render controls: an SD-tree is chosen on the CPU, and keeps the other
     model.render().set_backend("cuda");
     CHECK(model.messages().toasts().back().text == "CUDA has no kernels for lobes: they need the CPU");
     FieldSettings neural = tree;
-    neural.representation = Representation::NeuralVertex;
+    neural.representation = Representation::Neural;
     model.render().set_field(neural);
     model.render().set_backend("cuda");
     CHECK(model.render().wanted_backend() == "cuda");
     model.render().set_field(tree);
-    CHECK(model.render().settings().field.representation == Representation::NeuralVertex);
+    CHECK(model.render().settings().field.representation == Representation::Neural);
 }
 
 TEST_CASE("Render controls: a failure of a back end is reported, and the CPU takes over") {

@@ -29,7 +29,7 @@ void check_tile() {
     constexpr std::uint32_t kSet = kVertices > 1 ? kVertices - 1 : 1;
     using Tile = NetworkTile<kLanes, kVertices>;
     TileMemory<Tile> memory;
-    const std::vector<float> weights = random_values(kVertexLayout.count, -0.3f, 0.3f, 1);
+    const std::vector<float> weights = random_values(kNetworkWeights, -0.3f, 0.3f, 1);
     std::vector<float> inputs = random_values(kSet * kInputs, -1.0f, 1.0f, 2);
     std::vector<float> outputs(kSet * kVertexOutputs);
     std::barrier<> lanes(kLanes);

@@ -10,9 +10,9 @@
 namespace pl {
 
 /// Tables, and the network that they teach.
-struct VertexNetworkField : TableField {
+struct NetworkField : TableField {
     VertexEvaluator evaluate = nullptr;  ///< of the host
-    Span<const float> weights;           ///< of kVertexLayout, the running means
+    Span<const float> weights;           ///< as in network_layout.h, the running means
     Span<const std::uint32_t> counts;    ///< by NetworkCount
     Vec3f corner{0.0f};                  ///< lowest corner of the cube that the grids divide
     float edge = 1.0f;                   ///< of the cube, above 0
@@ -36,16 +36,15 @@ struct VertexNetworkField : TableField {
 };
 
 /// The volume that serves a vertex, and the mixture there in the frame of the world, which sampling and density share.
-struct NeuralVertexLocation : TableLocation {
+struct NeuralLocation : TableLocation {
     VertexMixture mixture;
 };
 
 /// Mixtures in the locations of vertices, where locate() evaluates the network.
 struct MixturesInLocations {
-    using Location = NeuralVertexLocation;
-    static constexpr bool kInLocation = true;
+    using Location = NeuralLocation;
 
-    static Location locate(const VertexNetworkField& field, const TableLocation& place, const SurfacePoint& surface) {
+    static Location locate(const NetworkField& field, const TableLocation& place, const SurfacePoint& surface) {
         return {place, field.mixture_at(surface.position, surface.shading_normal)};
     }
     static const VertexMixture& of(const Location& location) { return location.mixture; }
@@ -53,7 +52,7 @@ struct MixturesInLocations {
 
 /// `Mixtures`: where the mixtures are.
 template <class Mixtures>
-struct NeuralVertexFieldOf : VertexNetworkField {
+struct NeuralFieldOf : NetworkField {
     using Location = typename Mixtures::Location;
 
     PL_HD Location locate(const SurfacePoint& surface) const {
@@ -68,29 +67,20 @@ struct NeuralVertexFieldOf : VertexNetworkField {
     PL_HD FieldDensity density(const Location& location, const SurfacePoint& surface, Vec3f wi) const {
         return {Mixtures::of(location).pdf_sa(wi), cell_of(location, surface, wi)};
     }
-    PL_HD void record(const TrainingSample<NeuralVertexFieldOf>& sample, bool learns_fraction) const {
+    PL_HD void record(const TrainingSample<NeuralFieldOf>& sample, bool learns_fraction) const {
         TableField::record(of_table(sample), learns_fraction);
     }
-    PL_HD void add(const TrainingSample<NeuralVertexFieldOf>& sample, bool learns_fraction) const {
+    PL_HD void add(const TrainingSample<NeuralFieldOf>& sample, bool learns_fraction) const {
         TableField::add(of_table(sample), learns_fraction);
     }
-    PL_HD void record_light(const LightSample<NeuralVertexFieldOf>& light) const { record_at_volume(*this, light); }
-
-    /// For branches of a path that wait at a vertex: its mixture, too, where that is not in the location.
-    PL_HD NeuralVertexLocation keep(const Location& location) const requires(!Mixtures::kInLocation) {
-        return {location, Mixtures::of(location)};
-    }
-    PL_HD Location restore(const NeuralVertexLocation& kept) const requires(!Mixtures::kInLocation) {
-        Mixtures::of(kept) = kept.mixture;
-        return kept;
-    }
+    PL_HD void record_light(const LightSample<NeuralFieldOf>& light) const { record_at_volume(*this, light); }
 
 private:
-    static PL_HD TrainingSample<TableField> of_table(const TrainingSample<NeuralVertexFieldOf>& sample) {
+    static PL_HD TrainingSample<TableField> of_table(const TrainingSample<NeuralFieldOf>& sample) {
         return {{sample.entry, sample.bsdf_ratio, sample.distance}, sample.target};
     }
 };
-using NeuralVertexField = NeuralVertexFieldOf<MixturesInLocations>;
-static_assert(RadianceField<NeuralVertexField>);
+using NeuralField = NeuralFieldOf<MixturesInLocations>;
+static_assert(RadianceField<NeuralField>);
 
 }  // namespace pl
