@@ -63,10 +63,12 @@ target_compile_options(pl_warnings INTERFACE
     $<$<COMPILE_LANGUAGE:CXX>:-Wall;-Wextra;-Wpedantic;-Wshadow;-Wconversion>
     $<$<AND:$<COMPILE_LANGUAGE:CXX>,$<BOOL:${PL_WERROR}>>:-Werror>)
 
-# pl_add_library(NAME): a static library of this project; add sources by target_sources(). Its first source is the
-# CMakeLists.txt of the folder, so that a library of headers only is valid.
+# pl_add_library(NAME [LEVEL]): a static library of this project; add sources by target_sources(). Its first source is the
+# CMakeLists.txt of the folder, so that a library of headers only is valid. LEVEL: -O1 or -O2 for releases of code that no
+# pass of a picture runs, since optimization is half of the time of a build.
 function(pl_add_library name)
     add_library(${name} STATIC CMakeLists.txt)
     set_target_properties(${name} PROPERTIES LINKER_LANGUAGE CXX)
     target_link_libraries(${name} PUBLIC pl_options PRIVATE pl_warnings)
+    target_compile_options(${name} PRIVATE "$<$<CONFIG:Release>:${ARGN}>")
 endfunction()

@@ -218,6 +218,13 @@ struct Lanes {
         return root;
 #endif
     }
+    static PL_INLINE Uint reversed(const Uint& bits) {
+#if defined(__AVX2__)
+        return reversed_lanes(bits);
+#else
+        return reversed_bits(bits);
+#endif
+    }
     static PL_INLINE Real magnitude(const Real& x) { return pl::magnitude(x); }
     static PL_INLINE Real copy_sign(const Real& size, const Real& sign) {
         constexpr std::uint32_t kSign = 0x80000000u;

@@ -7,13 +7,6 @@
 
 namespace pl {
 
-#if defined(__AVX2__)
-template <>
-struct BitReversal<LaneUint> {
-    static PL_INLINE LaneUint of(const LaneUint& x) { return reversed_lanes(x); }
-};
-#endif
-
 namespace {
 
 /// 64-bit products of 32-bit lanes and one factor.
@@ -60,7 +53,7 @@ PL_INLINE PhiloxWords<LaneUint> vertex_bits_lanes(const DrawKey& key, const Coun
     PhiloxWords<LaneUint> bits = bits_lanes(key, counters, first, spread ? sequence : sample);
     const LaneUint seed =
         sequence_seed(key.seed, load_lanes<LaneUint>(counters.pixel + first), sequence, key.purpose);
-    const PhiloxWords<LaneUint> members = spread_bits(bits, seed, steps);
+    const PhiloxWords<LaneUint> members = spread_bits<Lanes>(bits, seed, steps);
     for (int i = 0; i < 4; ++i) bits.v[i] = spread ? members.v[i] : bits.v[i];
     return bits;
 }

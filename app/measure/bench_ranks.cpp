@@ -35,7 +35,7 @@ std::string message_of(const PlannedRun& run) {
 }
 
 PlannedRun planned_from(const std::string& text) {
-    const Json json = Json::parse(text);
+    const Json json = parse_json(text);
     return {.scene = json.at("scene"),
             .method = json.at("method"),
             .backend = json.at("backend"),
@@ -57,14 +57,14 @@ void send_reply(Communicator& ranks, const Reply& reply) {
 }
 
 Reply receive_reply(Communicator& ranks, int from) {
-    const Json json = Json::parse(receive_text(ranks, from));
+    const Json json = parse_json(receive_text(ranks, from));
     if (json.contains("message"))
         return {.failure = Error(static_cast<ErrorKind>(json.at("kind").get<int>()),
                                  ranks.name_of(from) + ": " + json.at("message").get<std::string>())};
     if (!json.contains("run")) return {};
     FinishedRun finished{.run = run_from_json(json.at("run"))};
     for (std::size_t i = 0; i < json.at("pictures").get<std::size_t>(); ++i) {
-        const Json size = Json::parse(receive_text(ranks, from));
+        const Json size = parse_json(receive_text(ranks, from));
         LinearImage& picture = finished.pictures.emplace_back();
         picture.width = size.at("width");
         picture.height = size.at("height");
@@ -129,7 +129,7 @@ bool take_plan(Communicator& ranks, const std::optional<BenchPlan>& plan, std::o
     std::vector<char> characters;
     broadcast_array(ranks, characters);
     if (plan) {
-        const Json expected = Json::parse(characters.begin(), characters.end());
+        const Json expected = parse_json({characters.data(), characters.size()});
         const Json own = plan->json();
         const Json differences = Json::diff(expected, own);
         if (!differences.empty()) {

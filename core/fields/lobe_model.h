@@ -50,7 +50,7 @@ inline float first_fraction(std::size_t) { return kInitialBsdfFraction; }
 
 /// The arrays in the order of files.
 // clang-format off
-inline constexpr std::tuple kAll{
+inline constexpr SpecList kAll{
     LobeSpec{"numbers of lobes", "number of lobes", Volume, Copy, Any, first_count, [](auto& t) -> auto& { return t.lobe_count; }},
     LobeSpec{"weights of lobes", "weight of a lobe", Lobe, Copy, Amount, first_weight, [](auto& t) -> auto& { return t.weight; }},
     LobeSpec{"means of lobes", "mean of a lobe", LobeAxis, Copy, Finite, first_mean, [](auto& t) -> auto& { return t.mean; }},
@@ -86,7 +86,7 @@ inline constexpr std::tuple kAll{
 /// Calls fn(spec) for every array.
 template <class Fn>
 constexpr void for_each_lobe_array(Fn&& fn) {
-    std::apply([&](const auto&... spec) { (fn(spec), ...); }, lobe_arrays::kAll);
+    for_each_spec(lobe_arrays::kAll, fn);
 }
 
 /// Calls fn(array of `from`, array of `to`) for every array; `to` is const if fn only reads it.

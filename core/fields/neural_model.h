@@ -45,7 +45,7 @@ using enum ValidRange;
 
 /// The arrays in the order of files, behind those of the tables.
 // clang-format off
-inline constexpr std::tuple kAll{
+inline constexpr SpecList kAll{
     NetworkSpec{"weights of the network", "weight", kNetworkWeights, Finite, [](auto& n) -> auto& { return n.weights; }},
     NetworkSpec{"slopes of the network", "slope", kNetworkWeights, Finite, [](auto& n) -> auto& { return n.slope_mean; }},
     NetworkSpec{"squares of slopes", "square of the slope", kNetworkWeights, Amount, [](auto& n) -> auto& { return n.slope_square; }},
@@ -59,7 +59,7 @@ inline constexpr std::tuple kAll{
 /// Calls fn(spec) for every array of the network.
 template <class Fn>
 constexpr void for_each_network_array(Fn&& fn) {
-    std::apply([&](const auto&... spec) { (fn(spec), ...); }, network_arrays::kAll);
+    for_each_spec(network_arrays::kAll, fn);
 }
 
 /// Calls fn(array of `from`, array of `to`) for every array; `to` is const if fn only reads it.

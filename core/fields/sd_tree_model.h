@@ -43,7 +43,7 @@ using enum ValidRange;
 
 /// The arrays in the order of files.
 // clang-format off
-inline constexpr std::tuple kAll{
+inline constexpr SpecList kAll{
     SdTreeSpec{"nodes of space", "node of space", SpatialNode, Structure, Copy, Any, 0.0f, [](auto& t) -> auto& { return t.spatial; }},
     SdTreeSpec{"roots of quadtrees", "root of a quadtree", Leaf, Structure, Copy, Any, 0.0f, [](auto& t) -> auto& { return t.first_node; }},
     SdTreeSpec{"energies", "energy", Slot, Values, Copy, Amount, 0.0f, [](auto& t) -> auto& { return t.energy; }},
@@ -77,7 +77,7 @@ inline constexpr std::tuple kAll{
 /// Calls fn(spec) for every array.
 template <class Fn>
 constexpr void for_each_sd_tree_array(Fn&& fn) {
-    std::apply([&](const auto&... spec) { (fn(spec), ...); }, sd_tree_arrays::kAll);
+    for_each_spec(sd_tree_arrays::kAll, fn);
 }
 
 /// Calls fn(array of `from`, array of `to`) for every array; `to` is const if fn only reads it.

@@ -4,7 +4,6 @@
 
 #include <span>
 #include <string_view>
-#include <tuple>
 
 #include "core/base/large_array.h"
 #include "core/fields/field_shape.h"
@@ -55,6 +54,17 @@ struct ArraySpec {
 template <class Initial, class Get>
 ArraySpec(const char*, const char*, ArrayExtent, OnSplit, ValidRange, Initial, Get) -> ArraySpec<Initial, Get>;
 
+/// Descriptions of the arrays of a model, each of a type of its own. A std::tuple of so many takes seconds to compile.
+template <class... Specs>
+struct SpecList : Specs... {};
+template <class... Specs>
+SpecList(Specs...) -> SpecList<Specs...>;
+
+template <class... Specs, class Fn>
+constexpr void for_each_spec(const SpecList<Specs...>& all, Fn&& fn) {
+    (fn(static_cast<const Specs&>(all)), ...);
+}
+
 namespace table_arrays {
 
 inline constexpr auto kZero = [](const FieldShape&, std::size_t) { return 0; };
@@ -73,7 +83,7 @@ using enum ValidRange;
 
 /// The arrays in the order of files.
 // clang-format off
-inline constexpr std::tuple kAll{
+inline constexpr SpecList kAll{
     ArraySpec{"radiance", "radiance", Cell, Copy, Amount, kZero, [](auto& t) -> auto& { return t.radiance; }},
     ArraySpec{"visits", "visits", Cell, Divide, Any, kZero, [](auto& t) -> auto& { return t.visits; }},
     ArraySpec{"sums", "sum", Cell, Clear, Any, kZero, [](auto& t) -> auto& { return t.pending_sum; }},
@@ -107,7 +117,7 @@ inline constexpr std::tuple kAll{
 /// Calls fn(spec) for every array.
 template <class Fn>
 constexpr void for_each_table_array(Fn&& fn) {
-    std::apply([&](const auto&... spec) { (fn(spec), ...); }, table_arrays::kAll);
+    for_each_spec(table_arrays::kAll, fn);
 }
 
 /// Number of values of an array for this number of volumes.

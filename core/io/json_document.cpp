@@ -7,12 +7,11 @@
 
 #include <fmt/format.h>
 
+#include "core/io/json_file.h"
 #include "core/io/line_reader.h"
 #include "core/io/nearest_name.h"
 
 namespace pl {
-
-using nlohmann::json;
 
 namespace {
 
@@ -47,7 +46,7 @@ private:
 };
 
 /// SAX handler that records the line of every key.
-class LineFinder : public nlohmann::json_sax<json> {
+class LineFinder : public nlohmann::json_sax<Json> {
 public:
     LineFinder(std::string_view text, const std::filesystem::path& path, std::map<std::string, int>& lines)
         : path_(path), lines_(lines), counted_(text.data()), reached_(text.data()) {}
@@ -76,7 +75,7 @@ public:
         return true;
     }
 
-    bool parse_error(std::size_t, const std::string&, const json::exception& error) override {
+    bool parse_error(std::size_t, const std::string&, const Json::exception& error) override {
         // "[json.exception.NAME] parse error at line 1, column 2: what": the place is removed, fail_at() adds it.
         std::string_view message = error.what();
         for (const char* lead : {"] ", "column ", ": "}) {
@@ -135,14 +134,14 @@ private:
     int line_ = 1;
 };
 
-bool fits_float(const json& value) {
+bool fits_float(const Json& value) {
     return value.is_number() &&
            std::abs(value.get<double>()) <= static_cast<double>(std::numeric_limits<float>::max());
 }
 
 /// A vector from an array of as many finite numbers; nothing from any other value.
 template <typename Vector>
-std::optional<Vector> read_floats(const json& value) {
+std::optional<Vector> read_floats(const Json& value) {
     constexpr auto kLength = static_cast<std::size_t>(Vector::length());
     if (!value.is_array() || value.size() != kLength || !std::all_of(value.begin(), value.end(), fits_float)) {
         return std::nullopt;
@@ -167,9 +166,9 @@ std::string pointer_step(const std::string& key) {
 JsonDocument::JsonDocument(std::string_view text, std::filesystem::path path) : path_(std::move(path)) {
     LineFinder finder(text, path_, lines_);
     const char* const end = text.data() + text.size();
-    json::sax_parse(CountingIterator(text.data(), finder.reached()), CountingIterator(end, finder.reached()),
+    Json::sax_parse(CountingIterator(text.data(), finder.reached()), CountingIterator(end, finder.reached()),
                     &finder);
-    root_ = json::parse(text.begin(), text.end());
+    root_ = parse_json(text);
     if (!root_.is_object()) {
         fail_at(path_, 1, "expected an object { ... }");
     }
@@ -181,13 +180,13 @@ void JsonDocument::fail(const std::string& pointer, const std::string& what) con
             pointer.empty() ? what : "'" + pointer.substr(1) + "': " + what);
 }
 
-const json* JsonDocument::find(const std::string& pointer) const {
-    const json::json_pointer where(pointer);
+const Json* JsonDocument::find(const std::string& pointer) const {
+    const Json::json_pointer where(pointer);
     return root_.contains(where) ? &root_.at(where) : nullptr;
 }
 
-const json* JsonDocument::object(const std::string& pointer, const std::vector<std::string>& known_keys) const {
-    const json* const value = find(pointer);
+const Json* JsonDocument::object(const std::string& pointer, const std::vector<std::string>& known_keys) const {
+    const Json* const value = find(pointer);
     if (value == nullptr) {
         return nullptr;
     }
@@ -203,7 +202,7 @@ const json* JsonDocument::object(const std::string& pointer, const std::vector<s
 }
 
 std::optional<std::string> JsonDocument::text(const std::string& pointer) const {
-    const json* const value = find(pointer);
+    const Json* const value = find(pointer);
     if (value != nullptr && !value->is_string()) {
         fail(pointer, "expected a text in quotes, got " + in_quotes(value->dump()));
     }
@@ -211,7 +210,7 @@ std::optional<std::string> JsonDocument::text(const std::string& pointer) const 
 }
 
 std::optional<bool> JsonDocument::boolean(const std::string& pointer) const {
-    const json* const value = find(pointer);
+    const Json* const value = find(pointer);
     if (value != nullptr && !value->is_boolean()) {
         fail(pointer, "expected true or false, got " + in_quotes(value->dump()));
     }
@@ -219,7 +218,7 @@ std::optional<bool> JsonDocument::boolean(const std::string& pointer) const {
 }
 
 std::optional<float> JsonDocument::number(const std::string& pointer) const {
-    const json* const value = find(pointer);
+    const Json* const value = find(pointer);
     if (value == nullptr) {
         return std::nullopt;
     }
@@ -230,7 +229,7 @@ std::optional<float> JsonDocument::number(const std::string& pointer) const {
 }
 
 std::optional<std::int64_t> JsonDocument::integer(const std::string& pointer) const {
-    const json* const value = find(pointer);
+    const Json* const value = find(pointer);
     if (value == nullptr) {
         return std::nullopt;
     }
@@ -243,7 +242,7 @@ std::optional<std::int64_t> JsonDocument::integer(const std::string& pointer) co
 }
 
 std::optional<std::vector<double>> JsonDocument::numbers(const std::string& pointer, std::size_t length) const {
-    const json* const value = find(pointer);
+    const Json* const value = find(pointer);
     if (value == nullptr) {
         return std::nullopt;
     }
@@ -254,7 +253,7 @@ std::optional<std::vector<double>> JsonDocument::numbers(const std::string& poin
 }
 
 std::optional<glm::vec3> JsonDocument::vector(const std::string& pointer) const {
-    const json* const value = find(pointer);
+    const Json* const value = find(pointer);
     if (value == nullptr) {
         return std::nullopt;
     }
@@ -275,7 +274,7 @@ std::optional<glm::vec3> JsonDocument::point(const std::string& pointer) const {
 }
 
 std::optional<glm::vec2> JsonDocument::range(const std::string& pointer) const {
-    const json* const value = find(pointer);
+    const Json* const value = find(pointer);
     if (value == nullptr) {
         return std::nullopt;
     }
@@ -287,12 +286,12 @@ std::optional<glm::vec2> JsonDocument::range(const std::string& pointer) const {
 }
 
 std::optional<std::vector<std::string>> JsonDocument::texts(const std::string& pointer) const {
-    const json* const value = find(pointer);
+    const Json* const value = find(pointer);
     if (value == nullptr) {
         return std::nullopt;
     }
     const bool fits = value->is_array() && !value->empty() &&
-                      std::all_of(value->begin(), value->end(), [](const json& item) { return item.is_string(); });
+                      std::all_of(value->begin(), value->end(), [](const Json& item) { return item.is_string(); });
     if (!fits) {
         fail(pointer, "expected texts in quotes [\"a\", ...], got " + in_quotes(value->dump()));
     }
@@ -300,7 +299,7 @@ std::optional<std::vector<std::string>> JsonDocument::texts(const std::string& p
 }
 
 std::size_t JsonDocument::array_size(const std::string& pointer) const {
-    const json* const value = find(pointer);
+    const Json* const value = find(pointer);
     if (value != nullptr && !value->is_array()) {
         fail(pointer, "expected an array [ ... ], got " + in_quotes(value->dump()));
     }

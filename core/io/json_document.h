@@ -11,7 +11,8 @@
 #include <vector>
 
 #include <glm/glm.hpp>
-#include <nlohmann/json.hpp>
+
+#include "core/io/json.h"
 
 namespace pl {
 
@@ -21,14 +22,14 @@ public:
     /// Throws Error(Input) with file and line: not JSON, a duplicate key, not an object at the top level.
     JsonDocument(std::string_view text, std::filesystem::path path);
 
-    const nlohmann::json& root() const { return root_; }
+    const Json& root() const { return root_; }
 
     /// Throws Error(Input) at the line of the member `pointer` (a JSON pointer such as "/camera/eye").
     [[noreturn]] void fail(const std::string& pointer, const std::string& what) const;
 
     /// The object at `pointer`, null if there is none. Throws Error(Input) if it is not an object or has an unknown
     /// key; the message names the nearest known one.
-    const nlohmann::json* object(const std::string& pointer, const std::vector<std::string>& known_keys) const;
+    const Json* object(const std::string& pointer, const std::vector<std::string>& known_keys) const;
 
     bool has(const std::string& pointer) const { return find(pointer) != nullptr; }
 
@@ -53,11 +54,11 @@ public:
     void count_from(const glm::dvec3& origin) { origin_ = origin; }
 
 private:
-    const nlohmann::json* find(const std::string& pointer) const;
+    const Json* find(const std::string& pointer) const;
 
     std::filesystem::path path_;
     std::map<std::string, int> lines_;
-    nlohmann::json root_;
+    Json root_;
     glm::dvec3 origin_{0.0};
 };
 

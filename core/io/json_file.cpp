@@ -4,6 +4,8 @@
 
 #include "core/io/files.h"
 
+template class nlohmann::basic_json<nlohmann::ordered_map>;
+
 namespace pl {
 
 bool is_utf8(const std::string& text) {
@@ -14,10 +16,12 @@ bool is_utf8(const std::string& text) {
     }
 }
 
+Json parse_json(std::string_view text) { return Json::parse(text); }
+
 Json read_json_file(const std::filesystem::path& path, std::string_view schema) {
     const std::string text = read_text_file(path);
     return read_members(path, [&] {
-        Json document = Json::parse(text);
+        Json document = parse_json(text);
         const std::string found = document.at("schema").get<std::string>();
         if (found != schema)
             throw Error(ErrorKind::Input,

@@ -5,21 +5,20 @@
 #include <string>
 #include <string_view>
 
-#include <nlohmann/json.hpp>
-
 #include "core/base/error.h"
+#include "core/io/json.h"
 #include "core/kernel/base/math.h"
 
 namespace pl {
-
-/// Members stay in the order in which they were written.
-using Json = nlohmann::ordered_json;
 
 /// [x, y, z].
 inline Json vector_json(const Vec3f& v) { return Json::array({v.x, v.y, v.z}); }
 
 /// Whether JSON text can hold these bytes.
 bool is_utf8(const std::string& text);
+
+/// Throws Json::parse_error.
+Json parse_json(std::string_view text);
 
 /// Throws Error(Input): missing, not JSON, not of this "schema".
 Json read_json_file(const std::filesystem::path& path, std::string_view schema);

@@ -113,7 +113,7 @@ void read_vertex_colors(const JsonDocument& file, SceneDescription& scene) {
 }
 
 void read_settings(const JsonDocument& file, SceneDescription& scene) {
-    const nlohmann::json* const settings = file.object("/settings", kSettings);
+    const Json* const settings = file.object("/settings", kSettings);
     if (settings == nullptr) {
         return;
     }

@@ -4,6 +4,8 @@
 # exits 1 if any.
 # Types of unnamed namespaces belong to their files, and may repeat each other's names, but not that of a type of the
 # namespace around them: which of both is meant would depend on the headers that a file includes.
+# Headers that are compiled once per instruction set define everything in an unnamed namespace: of a function or class of the whole
+# program the linker would keep the copy for any of the sets.
 set -u
 cd "$1" || exit 2
 # Sorted, so that messages come in one order on every machine.
@@ -83,7 +85,8 @@ function type_of(head,    depth, round, i, c, name) {
     return name ~ /::/ ? "" : name  # a member of another type, defined outside of it
 }
 
-function read_file(file, text,    depth, head, line, token, at, hidden, path, name, kind, i, parts, n, closed) {
+function read_file(file, text,    is_lanes, depth, head, line, token, at, hidden, path, name, kind, i, parts, n, closed) {
+    is_lanes = text ~ /Included by one file per instruction set/
     text = bare("\n" text)
     depth = 0; head = ""; line = 0; closed = 0
     path[0] = ""; hidden[0] = 0
@@ -112,6 +115,10 @@ function read_file(file, text,    depth, head, line, token, at, hidden, path, na
             hidden[depth] = hidden[depth - 1] || (head ~ /^namespace$/)
             head = ""
             continue
+        }
+        if (is_lanes && !hidden[depth]) {
+            printf "%s:%d: expected an unnamed namespace around what is compiled per instruction set\n", file, line
+            broken = 1
         }
         name = type_of(head)
         if (name != "") note(path[depth] name, file ":" line, hidden[depth])

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "core/kernel/base/math.h"
+#include "core/kernel/base/sobol.h"
 
 namespace pl {
 
@@ -53,6 +54,7 @@ struct One {
     static PL_INLINE Uint to_count(Int i) { return static_cast<Uint>(i); }
     static PL_INLINE Int bits_of(Real x) { return std::bit_cast<Int>(x); }
     static PL_INLINE Real from_bits(Int bits) { return std::bit_cast<Real>(bits); }
+    static PL_INLINE Uint reversed(Uint bits) { return reversed_bits(bits); }
     static PL_INLINE bool any(Mask mask) { return mask; }
     static PL_INLINE Real load(const float* values, Int index) { return values[index]; }
     /// Number of the `count` ascending values from values[first] on that are not above x. If `count` is a multiple of 4, so is

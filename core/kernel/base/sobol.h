@@ -8,24 +8,17 @@
 
 namespace pl {
 
-/// The way to reverse the bits of a word. Specialized for vectors of words that have a faster one.
-template <class Word>
-struct BitReversal {
-    static PL_INLINE Word of(Word x) {
-#if defined(__CUDA_ARCH__)
-        return __brev(x);
-#else
-        x = ((x >> 1) & 0x55555555u) | ((x & 0x55555555u) << 1);
-        x = ((x >> 2) & 0x33333333u) | ((x & 0x33333333u) << 2);
-        x = ((x >> 4) & 0x0f0f0f0fu) | ((x & 0x0f0f0f0fu) << 4);
-        x = ((x >> 8) & 0x00ff00ffu) | ((x & 0x00ff00ffu) << 8);
-        return (x >> 16) | (x << 16);
-#endif
-    }
-};
 template <class Word>
 PL_INLINE Word reversed_bits(Word x) {
-    return BitReversal<Word>::of(x);
+#if defined(__CUDA_ARCH__)
+    return __brev(x);
+#else
+    x = ((x >> 1) & 0x55555555u) | ((x & 0x55555555u) << 1);
+    x = ((x >> 2) & 0x33333333u) | ((x & 0x33333333u) << 2);
+    x = ((x >> 4) & 0x0f0f0f0fu) | ((x & 0x0f0f0f0fu) << 4);
+    x = ((x >> 8) & 0x00ff00ffu) | ((x & 0x00ff00ffu) << 8);
+    return (x >> 16) | (x << 16);
+#endif
 }
 
 /// A permutation, chosen by `seed`, by which every bit depends on the bits below it alone: Owen's nested uniform scrambling of

@@ -22,20 +22,20 @@ PL_INLINE Word sequence_seed(std::uint64_t seed, Word pixel, Word sequence, Purp
 /// Member number `steps` of a sequence, as random bits. Members x, w, and y and z together, are Owen-scrambled Sobol points in an
 /// order shuffled for each of the three, so that none depends on another [Burley 2020, "Practical Hash-based Owen Scrambling"].
 /// `shift` is uniform and independent of `seed`: it makes every member exactly uniform.
-template <class Word>
+template <class N, class Word = typename N::Uint>
 PL_INLINE PhiloxWords<Word> spread_bits(const PhiloxWords<Word>& shift, Word seed, Word steps) {
     const Word other = mixed_bits(seed + 0x9e3779b9u);
-    const Word reversed = reversed_bits(steps);
-    const Word index_x = reversed_bits(scramble_reversed(reversed, seed));
-    const Word index_yz = reversed_bits(scramble_reversed(reversed, other));
+    const Word reversed = N::reversed(steps);
+    const Word index_x = N::reversed(scramble_reversed(reversed, seed));
+    const Word index_yz = N::reversed(scramble_reversed(reversed, other));
     const Word scramble = mixed_bits(other + 0x9e3779b9u);
     const Word scramble_z = scramble * 0x2c1b3c6du + 0x297a2d39u;
     const Word last = mixed_bits(scramble + 0x9e3779b9u);
-    const Word index_w = reversed_bits(scramble_reversed(reversed, last));
-    return {{shift.v[0] ^ reversed_bits(scramble_reversed(index_x, scramble)),
-             shift.v[1] ^ reversed_bits(scramble_reversed(index_yz, scramble)),
-             shift.v[2] ^ reversed_bits(scramble_reversed(sobol_second_reversed(index_yz), scramble_z)),
-             shift.v[3] ^ reversed_bits(scramble_reversed(index_w, scramble))}};
+    const Word index_w = N::reversed(scramble_reversed(reversed, last));
+    return {{shift.v[0] ^ N::reversed(scramble_reversed(index_x, scramble)),
+             shift.v[1] ^ N::reversed(scramble_reversed(index_yz, scramble)),
+             shift.v[2] ^ N::reversed(scramble_reversed(sobol_second_reversed(index_yz), scramble_z)),
+             shift.v[3] ^ N::reversed(scramble_reversed(index_w, scramble))}};
 }
 
 /// The sequences that first vertices draw from, one for each half of the passes: named by numbers, so that a new name gives fresh ones.
@@ -65,7 +65,7 @@ PL_HD inline Vec4f vertex_numbers(const Rng& rng, const VertexSequences& sequenc
     const auto [sequence, steps] = sequence_member(sequences, rng.sample);
     // One call for both cases, which the lanes of a warp make together.
     Philox words = Rng{rng.seed, rng.stream, rng.pixel, is_spread ? sequence : rng.sample}.bits(vertex, purpose);
-    if (is_spread) words = spread_bits(words, sequence_seed(rng.seed, rng.pixel, sequence, purpose), steps);
+    if (is_spread) words = spread_bits<One>(words, sequence_seed(rng.seed, rng.pixel, sequence, purpose), steps);
     return to_unit_floats(words);
 }
 
