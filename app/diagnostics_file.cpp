@@ -11,7 +11,7 @@ namespace pl {
 namespace {
 
 /// The pixels with most occurrences of a kind, in rows from the top where counts are equal: [x, y, count].
-Json worst_pixels(const DiagnosticsMap& map, DiagnosticKind kind) {
+Json worst_pixels(const diagnose::DiagnosticsMap& map, diagnose::DiagnosticKind kind) {
     constexpr std::size_t kMost = 16;
     const auto count_at = [&](std::size_t pixel) { return map.pixels[pixel][index_of(kind)]; };
     std::vector<std::size_t> pixels;
@@ -27,14 +27,14 @@ Json worst_pixels(const DiagnosticsMap& map, DiagnosticKind kind) {
     return list;
 }
 
-Json found_json(const DiagnosticsMap& map) {
+Json found_json(const diagnose::DiagnosticsMap& map) {
     Json json{{"samples", map.samples},
               {"traced", map.traced},
               {"complete", map.is_complete},
               {"moving_tables", map.has_moving_tables}};
-    for (const DiagnosticInfo& info : all_diagnostics()) {
+    for (const diagnose::DiagnosticInfo& info : diagnose::all_diagnostics()) {
         Json& entry = json[std::string(info.name)];
-        if (info.id == DiagnosticKind::ClampedSample && !map.knows_clamped)
+        if (info.id == diagnose::DiagnosticKind::ClampedSample && !map.knows_clamped)
             entry = nullptr;
         else
             entry = {{"count", map.found[index_of(info.id)]},
@@ -44,41 +44,43 @@ Json found_json(const DiagnosticsMap& map) {
     return json;
 }
 
-ByteImage marked(ByteImage image, const DiagnosticsMap& map) {
+ByteImage marked(ByteImage image, const diagnose::DiagnosticsMap& map) {
     std::vector<std::uint32_t> argb(image.rgb.size() / 3);
     for (std::size_t i = 0; i < argb.size(); ++i)
         argb[i] = pack_pixel(image.rgb[3 * i], image.rgb[3 * i + 1], image.rgb[3 * i + 2]);
-    mark_diagnostics(map, {argb.data(), static_cast<std::size_t>(image.width)});
+    diagnose::mark_diagnostics(map, {argb.data(), static_cast<std::size_t>(image.width)});
     for (std::size_t i = 0; i < argb.size(); ++i)
         for (std::size_t channel = 0; channel < 3; ++channel)
             image.rgb[3 * i + channel] = static_cast<std::uint8_t>(argb[i] >> (16 - 8 * channel) & 255u);
     return image;
 }
 
-LinearImage counts_of(const DiagnosticsMap& map) {
+LinearImage counts_of(const diagnose::DiagnosticsMap& map) {
     LinearImage image{.width = map.width, .height = map.height, .pixels = {}};
-    for (const DiagnosticsMap::Pixel& pixel : map.pixels) {
-        const auto count = [&](DiagnosticKind kind) { return static_cast<float>(pixel[index_of(kind)]); };
-        image.pixels.push_back({count(DiagnosticKind::InvalidSample), count(DiagnosticKind::EscapedPath),
-                                count(DiagnosticKind::LookupMiss) + count(DiagnosticKind::ClampedSample)});
+    for (const diagnose::DiagnosticsMap::Pixel& pixel : map.pixels) {
+        const auto count = [&](diagnose::DiagnosticKind kind) { return static_cast<float>(pixel[index_of(kind)]); };
+        image.pixels.push_back(
+            {count(diagnose::DiagnosticKind::InvalidSample), count(diagnose::DiagnosticKind::EscapedPath),
+             count(diagnose::DiagnosticKind::LookupMiss) + count(diagnose::DiagnosticKind::ClampedSample)});
     }
     return image;
 }
 
 }  // namespace
 
-Json diagnostics_json(const Snapshot& snapshot, const DiagnosticsMap* found) {
-    const DiagnosticCounts counted = counted_diagnostics(snapshot);
+Json diagnostics_json(const Snapshot& snapshot, const diagnose::DiagnosticsMap* found) {
+    const diagnose::DiagnosticCounts counted = diagnose::counted_diagnostics(snapshot);
     // Whether surfaces close the scene is examined only once a path has escaped.
     const bool is_known = snapshot.counters.path.escaped > 0;
     Json json{{"closed", is_known ? Json(snapshot.is_closed) : Json(nullptr)}};
-    for (const DiagnosticInfo& info : all_diagnostics()) json[std::string(info.name)] = counted[index_of(info.id)];
+    for (const diagnose::DiagnosticInfo& info : diagnose::all_diagnostics())
+        json[std::string(info.name)] = counted[index_of(info.id)];
     json["found"] = found != nullptr ? found_json(*found) : Json(nullptr);
     return json;
 }
 
 void save_diagnostics(const std::filesystem::path& path, const Snapshot& snapshot, const DisplaySettings& display,
-                      const DiagnosticsMap& map, ImageMetadata metadata) {
+                      const diagnose::DiagnosticsMap& map, ImageMetadata metadata) {
     metadata.emplace_back("diagnostics", summary_of(map));
     const ImageKind kind = image_kind(path);
     if (kind == ImageKind::Png)

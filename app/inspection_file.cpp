@@ -122,9 +122,9 @@ Json history_json(const std::vector<HistoryPoint>& points) {
         const bool is_finite = std::isfinite(point.divergence_to_end);
         list.push_back(
             {{"passes", point.passes},
-             {"table_divergence", interval_json(figures.table)},
-             {"mixture_divergence", interval_json(figures.mixture)},
-             {"variance_factor", figures.variance_factor ? interval_json(*figures.variance_factor) : Json()},
+             {"table_divergence", bench::interval_json(figures.table)},
+             {"mixture_divergence", bench::interval_json(figures.mixture)},
+             {"variance_factor", figures.variance_factor ? bench::interval_json(*figures.variance_factor) : Json()},
              {"divergence_to_end", is_finite ? Json(point.divergence_to_end) : Json()},
              {"variation_to_end", point.variation_to_end}});
     }

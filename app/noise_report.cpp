@@ -11,7 +11,7 @@ namespace {
 constexpr const char* kNoiseLights[] = {"surfaces", "environment"};
 
 std::string bounce_name(std::size_t bounces) {
-    return bounces + 1 < kBounceClasses ? fmt::format("{}", bounces) : fmt::format("{} or more", bounces);
+    return bounces + 1 < diagnose::kBounceClasses ? fmt::format("{}", bounces) : fmt::format("{} or more", bounces);
 }
 
 std::string bounds_text(const Interval& value) {
@@ -25,41 +25,41 @@ std::string share_line(std::string_view name, const Interval& share) {
                        100.0 * share.high);
 }
 
-std::string shares_text(const NoiseShares& shares) {
+std::string shares_text(const diagnose::NoiseShares& shares) {
     std::string text = "  noise by technique\n";
-    for (const FoundByInfo& info : all_found_by())
+    for (const diagnose::FoundByInfo& info : diagnose::all_found_by())
         text += share_line(info.label, shares.found_by[static_cast<std::size_t>(info.id)]);
     text += "  noise by bounces\n";
-    for (std::size_t i = 0; i < kBounceClasses; ++i) text += share_line(bounce_name(i), shares.bounces[i]);
+    for (std::size_t i = 0; i < diagnose::kBounceClasses; ++i) text += share_line(bounce_name(i), shares.bounces[i]);
     text += "  noise by light\n";
     for (std::size_t i = 0; i < shares.lights.size(); ++i) text += share_line(kNoiseLights[i], shares.lights[i]);
     return text;
 }
 
-std::string estimate_text(std::string_view method, const PixelEstimate& estimate) {
+std::string estimate_text(std::string_view method, const diagnose::PixelEstimate& estimate) {
     std::string text =
         fmt::format("{}: luminance {}, variance of a path {}, {:.3g} us a path\n", method, bounds_text(estimate.mean),
                     bounds_text(estimate.variance), 1.0e6 * estimate.seconds_per_path);
     return text + (estimate.shares ? shares_text(*estimate.shares) : "  no noise\n");
 }
 
-Json estimate_json(std::string_view method, const PixelEstimate& estimate) {
+Json estimate_json(std::string_view method, const diagnose::PixelEstimate& estimate) {
     Json json{{"method", method},
               {"paths", estimate.paths},
-              {"luminance", interval_json(estimate.mean)},
-              {"variance", interval_json(estimate.variance)},
+              {"luminance", bench::interval_json(estimate.mean)},
+              {"variance", bench::interval_json(estimate.variance)},
               {"seconds_per_path", estimate.seconds_per_path},
               {"by_technique", Json()},
               {"by_bounces", Json()},
               {"by_light", Json()}};
     if (!estimate.shares) return json;
-    for (const FoundByInfo& info : all_found_by())
+    for (const diagnose::FoundByInfo& info : diagnose::all_found_by())
         json["by_technique"][std::string(info.name)] =
-            interval_json(estimate.shares->found_by[static_cast<std::size_t>(info.id)]);
+            bench::interval_json(estimate.shares->found_by[static_cast<std::size_t>(info.id)]);
     json["by_bounces"] = Json::array();
-    for (const Interval& share : estimate.shares->bounces) json["by_bounces"].push_back(interval_json(share));
+    for (const Interval& share : estimate.shares->bounces) json["by_bounces"].push_back(bench::interval_json(share));
     for (std::size_t i = 0; i < estimate.shares->lights.size(); ++i)
-        json["by_light"][kNoiseLights[i]] = interval_json(estimate.shares->lights[i]);
+        json["by_light"][kNoiseLights[i]] = bench::interval_json(estimate.shares->lights[i]);
     return json;
 }
 
@@ -69,15 +69,15 @@ Json mark_json(const Interval& net) {
 
 Json pixel_gain_json(const Gain& gain) {
     Json json = mark_json(gain.net);
-    json["samples"] = interval_json(gain.samples);
-    json["cost"] = interval_json(gain.cost);
+    json["samples"] = bench::interval_json(gain.samples);
+    json["cost"] = bench::interval_json(gain.cost);
     return json;
 }
 
 }  // namespace
 
 std::string noise_text(const NoiseOfPicture& picture) {
-    const PixelNoise& noise = picture.noise;
+    const diagnose::PixelNoise& noise = picture.noise;
     const auto width = static_cast<std::uint32_t>(picture.width);
     const std::string_view base = info_of(baseline_method()).name;
     std::string text = fmt::format("pixel {},{}: {} paths by each method\n", noise.pixel % width, noise.pixel / width,
@@ -92,7 +92,7 @@ std::string noise_text(const NoiseOfPicture& picture) {
 }
 
 Json noise_json(const NoiseOfPicture& picture) {
-    const PixelNoise& noise = picture.noise;
+    const diagnose::PixelNoise& noise = picture.noise;
     const auto width = static_cast<std::uint32_t>(picture.width);
     Json json{{"pixel", {noise.pixel % width, noise.pixel / width}},
               {"passes", picture.passes},

@@ -11,7 +11,7 @@ namespace pl {
 
 /// A pixel's noise, and the picture that it belongs to.
 struct NoiseOfPicture {
-    const PixelNoise& noise;
+    const diagnose::PixelNoise& noise;
     int width = 0;
     std::uint64_t passes = 0;  ///< that trained the field
 };

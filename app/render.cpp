@@ -43,24 +43,25 @@ void require_paths(const Options& options) {
 }
 
 /// Empty without --target-error. Throws Error(Input) if the reference of --reference is missing.
-std::optional<ErrorTarget> make_target(const Session& session, const Options& options) {
+std::optional<bench::ErrorTarget> make_target(const Session& session, const Options& options) {
     if (!options.target_error) return std::nullopt;
-    std::shared_ptr<const Reference> reference;
+    std::shared_ptr<const bench::Reference> reference;
     if (!options.reference_folder.empty())
-        reference = std::make_shared<const Reference>(
-            ReferenceStore(options.reference_folder).require(content_of(session.scene(), session.settings())));
-    return ErrorTarget(*options.target_error, std::move(reference));
+        reference = std::make_shared<const bench::Reference>(
+            bench::ReferenceStore(options.reference_folder)
+                .require(bench::content_of(session.scene(), session.settings())));
+    return bench::ErrorTarget(*options.target_error, std::move(reference));
 }
 
 /// ", noise 0.0098 (target 0.01)"; empty without a target.
-std::string target_text(const ErrorTarget* target) {
+std::string target_text(const bench::ErrorTarget* target) {
     if (target == nullptr) return "";
     return fmt::format(", {} {} (target {:.3g})", target->word(),
                        target->measured() ? fmt::format("{:.3g}", *target->measured()) : "unknown", target->target());
 }
 
 /// Throws Error(Threshold) if another limit ended the rendering before the target was met.
-void require_low_error(ErrorTarget* target, const RunOutcome& outcome) {
+void require_low_error(bench::ErrorTarget* target, const RunOutcome& outcome) {
     if (target == nullptr || target->is_low_enough()) return;
     throw Error(ErrorKind::Threshold,
                 fmt::format("--target-error: expected {} of at most {:.3g} as relMSE, got {} when --{} was reached",
@@ -70,19 +71,21 @@ void require_low_error(ErrorTarget* target, const RunOutcome& outcome) {
 }
 
 /// Writes the file of --diagnostics; after an interruption, with the findings until then.
-DiagnosticsMap write_diagnostics(DiagnosticsInput source, const Snapshot& snapshot, const Options& options,
-                                 const ImageMetadata& metadata, const InterruptGuard& interrupt, Console& console) {
+diagnose::DiagnosticsMap write_diagnostics(diagnose::DiagnosticsInput source, const Snapshot& snapshot,
+                                           const Options& options, const ImageMetadata& metadata,
+                                           const InterruptGuard& interrupt, Console& console) {
     ProgressDisplay progress(console, !options.no_progress && !options.quiet);
-    DiagnosticsMap found = find_diagnostics(std::move(source), options.threads, interrupt.flag(), [&](double share) {
-        progress.show({.activity = "tracing again", .share = share, .spp = snapshot.passes, .detail = ""});
-    });
+    diagnose::DiagnosticsMap found =
+        diagnose::find_diagnostics(std::move(source), options.threads, interrupt.flag(), [&](double share) {
+            progress.show({.activity = "tracing again", .share = share, .spp = snapshot.passes, .detail = ""});
+        });
     save_diagnostics(options.diagnostics_file, snapshot, options.display, found, metadata);
     console.remark(fmt::format("{}: {}\n", options.diagnostics_file, summary_of(found)));
     return found;
 }
 
 void report(const Snapshot& snapshot, const Options& options, const Json& stats, bool interrupted,
-            const ErrorTarget* target, const CheckpointFiles& checkpoints, Console& console) {
+            const bench::ErrorTarget* target, const CheckpointFiles& checkpoints, Console& console) {
     const double seconds = snapshot.clocks.total();
     const std::string range = picture_kind(options.output) == ImageKind::Png ? legend(snapshot) : "";
     console.remark(fmt::format("{}: {}x{}, {}, {}, {} spp, {:.2f} s{}{}{}{}\n", options.output, snapshot.width,
@@ -143,8 +146,8 @@ int run_render(const CommandLine& line, Console& console) {
     const std::string command = command_text(Command::Render, options, scene_defaults(options.scene, *loaded.scene));
     const FilmSlot slot = slot_of(options.render);
 
-    std::optional<ErrorTarget> target = make_target(session, options);
-    ErrorTarget* const aim = target ? &*target : nullptr;
+    std::optional<bench::ErrorTarget> target = make_target(session, options);
+    bench::ErrorTarget* const aim = target ? &*target : nullptr;
     const RunOutcome outcome = run_saved(session, options, interrupt, console, {aim, &checkpoints});
     if (aim != nullptr) aim->measure_last(session, slot);
     const Snapshot snapshot = session.snapshot(slot);
@@ -153,8 +156,8 @@ int run_render(const CommandLine& line, Console& console) {
     write_picture(options.output, snapshot, options.display, metadata, console);
     bool is_complete = true;  // the files beside the picture
     if (!options.diagnostics_file.empty()) {
-        const DiagnosticsMap found =
-            write_diagnostics(diagnostics_input(session, slot), snapshot, options, metadata, interrupt, console);
+        const diagnose::DiagnosticsMap found = write_diagnostics(diagnose::diagnostics_input(session, slot), snapshot,
+                                                                 options, metadata, interrupt, console);
         stats["diagnostics"] = diagnostics_json(snapshot, &found);
         is_complete = found.is_complete;
     }

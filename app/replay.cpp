@@ -66,9 +66,9 @@ private:
     bool render_frame(int index) {
         const CameraDescription camera = path_.frame(index, frames_);
         session_.apply(EditCamera{camera});
-        std::optional<ErrorTarget> target;
+        std::optional<bench::ErrorTarget> target;
         if (options_.target_error) target.emplace(*options_.target_error, nullptr);
-        ErrorTarget* const aim = target ? &*target : nullptr;
+        bench::ErrorTarget* const aim = target ? &*target : nullptr;
         const RunOutcome outcome =
             run_passes(session_, options_, interrupt_, console_, Until::Rendered, {.target = aim});
         if (outcome.interrupted()) return false;

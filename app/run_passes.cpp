@@ -94,7 +94,7 @@ private:
     const Options& options_;
     const InterruptGuard& interrupt_;
     Until until_;
-    ErrorTarget* target_;
+    bench::ErrorTarget* target_;
     CheckpointFiles* checkpoints_;
     Stopwatch watch_;
 };

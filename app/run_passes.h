@@ -32,7 +32,7 @@ void announce(const Session& session, Console& console);
 
 /// Observers of a run; each may be null.
 struct RunAids {
-    ErrorTarget* target = nullptr;           ///< may end it
+    bench::ErrorTarget* target = nullptr;    ///< may end it
     CheckpointFiles* checkpoints = nullptr;  ///< written along the way
 };
 

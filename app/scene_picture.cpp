@@ -13,21 +13,21 @@
 namespace pl {
 namespace {
 
-PicturePainter painter() { return PicturePainter(find_assets_dir() / "fonts" / "roboto-medium-latin.ttf"); }
+ui::PicturePainter painter() { return ui::PicturePainter(find_assets_dir() / "fonts" / "roboto-medium-latin.ttf"); }
 
 /// Keeps all frames of a run of the program, up to a gibibyte.
-FieldHistoryRecorder recorder_for_run() {
-    FieldHistoryRecorder recorder;
+ui::FieldHistoryRecorder recorder_for_run() {
+    ui::FieldHistoryRecorder recorder;
     recorder.set_limit(std::size_t{1} << 30);
     return recorder;
 }
 
 /// Light samples alone: little noise after a few passes, and no sample of it trains the field.
-PublishedFrame frame_behind(Session& session, const Options& options) {
+ui::PublishedFrame frame_behind(Session& session, const Options& options) {
     constexpr std::uint32_t kPasses = 8;
     const FilmSlot slot{baseline_method(), View::Direct};
     while (session.passes(slot) < kPasses) session.advance(slot);
-    return frame_of(session, slot, options.display);
+    return ui::frame_of(session, slot, options.display);
 }
 
 }  // namespace
@@ -37,42 +37,42 @@ void require_viewer_code(const std::string&) {}
 ByteImage draw_in_scene(Session& session, std::int32_t volume, const Options& options) {
     const MethodId method = options.render.method;
     if (options.drawn == "flowers") {
-        FieldHistoryRecorder recorder = recorder_for_run();
+        ui::FieldHistoryRecorder recorder = recorder_for_run();
         recorder.observe(session, method);
         return painter().flowers(frame_behind(session, options), *recorder.history()->frames.back());
     }
     const auto read = std::make_shared<const VolumeInspection>(session.inspect_volume(method, volume));
     return painter().volumes(frame_behind(session, options), {read},
-                             options.drawn == "dome" ? LobeShape::Dome : LobeShape::Lobe);
+                             options.drawn == "dome" ? ui::LobeShape::Dome : ui::LobeShape::Lobe);
 }
 
-ByteImage draw_path_lines(Session& session, const std::vector<PathRecord>& paths, const Options& options) {
-    PixelPaths drawn;
+ByteImage draw_path_lines(Session& session, const std::vector<diagnose::PathRecord>& paths, const Options& options) {
+    diagnose::PixelPaths drawn;
     drawn.plain = paths;
     return painter().paths(frame_behind(session, options), drawn);
 }
 
 struct FieldPast::Kept {
-    FieldHistoryRecorder recorder = recorder_for_run();
+    ui::FieldHistoryRecorder recorder = recorder_for_run();
 };
 
 FieldPast::FieldPast() : kept_(std::make_unique<Kept>()) {}
 FieldPast::~FieldPast() = default;
 
-std::uint32_t FieldPast::next(std::uint32_t passes) { return static_cast<std::uint32_t>(next_key_frame(passes)); }
+std::uint32_t FieldPast::next(std::uint32_t passes) { return static_cast<std::uint32_t>(ui::next_key_frame(passes)); }
 
 void FieldPast::observe(const Session& session, MethodId method) { kept_->recorder.observe(session, method); }
 
 std::vector<HistoryPoint> FieldPast::points(const IncidentLight& light, std::int32_t volume,
                                             TargetLight target) const {
-    const FieldHistory& history = *kept_->recorder.history();
-    const std::vector<FigurePoint> past = past_figures(light, history, volume, target);
+    const ui::FieldHistory& history = *kept_->recorder.history();
+    const std::vector<ui::FigurePoint> past = ui::past_figures(light, history, volume, target);
     if (past.empty()) return {};
     const std::vector<float> end = history.frames.back()->inspect(volume).probability;
     auto frame = history.frames.end() - static_cast<std::ptrdiff_t>(past.size());  // volumes are only ever added
     std::vector<HistoryPoint> points;
-    for (const FigurePoint& point : past) {
-        const ShareDifference apart = difference(end, (*frame++)->inspect(volume).probability);
+    for (const ui::FigurePoint& point : past) {
+        const ui::ShareDifference apart = ui::difference(end, (*frame++)->inspect(volume).probability);
         points.push_back({.passes = point.passes,
                           .figures = point.figures,
                           .divergence_to_end = apart.divergence,
@@ -82,7 +82,7 @@ std::vector<HistoryPoint> FieldPast::points(const IncidentLight& light, std::int
 }
 
 ByteImage draw_history(const std::vector<HistoryPoint>& points) {
-    std::vector<FigurePoint> figures;
+    std::vector<ui::FigurePoint> figures;
     for (const HistoryPoint& point : points) figures.push_back({point.passes, point.figures});
     return painter().figures(figures, 640, 260);
 }
@@ -99,7 +99,7 @@ void require_viewer_code(const std::string& option) {
 }
 
 ByteImage draw_in_scene(Session&, std::int32_t, const Options&) { return {}; }
-ByteImage draw_path_lines(Session&, const std::vector<PathRecord>&, const Options&) { return {}; }
+ByteImage draw_path_lines(Session&, const std::vector<diagnose::PathRecord>&, const Options&) { return {}; }
 struct FieldPast::Kept {};
 FieldPast::FieldPast() = default;
 FieldPast::~FieldPast() = default;

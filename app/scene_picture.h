@@ -20,7 +20,7 @@ void require_viewer_code(const std::string& option);
 ByteImage draw_in_scene(Session& session, std::int32_t volume, const Options& options);
 
 /// The same with paths of a pixel as lines.
-ByteImage draw_path_lines(Session& session, const std::vector<PathRecord>& paths, const Options& options);
+ByteImage draw_path_lines(Session& session, const std::vector<diagnose::PathRecord>& paths, const Options& options);
 
 /// A volume at one of the key frames of a field.
 struct HistoryPoint {

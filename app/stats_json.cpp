@@ -26,7 +26,7 @@ Json mean_radiance(const Snapshot& snapshot) {
     return Json::array({sum.x, sum.y, sum.z});
 }
 
-Json target_json(const ErrorTarget* target) {
+Json target_json(const bench::ErrorTarget* target) {
     if (target == nullptr) return nullptr;
     return {{"relmse", target->target()},
             {"measured", target->measured() ? Json(*target->measured()) : Json(nullptr)},
@@ -82,7 +82,7 @@ void add_traffic(Json& stats, const Communicator& ranks) {
 }  // namespace
 
 Json stats_json(const Session& session, const Snapshot& snapshot, const Options& options, const RunOutcome& outcome,
-                const ErrorTarget* target) {
+                const bench::ErrorTarget* target) {
     const RenderSettings& settings = session.settings();
     const BackendInfo backend = session.backend();
     const FeatureSet needed = session.needed_features(snapshot.slot);
@@ -103,7 +103,7 @@ Json stats_json(const Session& session, const Snapshot& snapshot, const Options&
                {"max_depth", settings.max_depth},
                {"nee", settings.next_event},
                {"roulette", name_of(settings.roulette)},
-               {"seconds", clocks_json(snapshot.clocks, {{"total", snapshot.clocks.total()}})},
+               {"seconds", bench::clocks_json(snapshot.clocks, {{"total", snapshot.clocks.total()}})},
                {"ended_by", name_of(outcome.ended_by)},
                {"target_error", target_json(target)}};
     add_counters(stats, snapshot.counters);

@@ -42,13 +42,13 @@ bool come_to_path(Session& session, std::uint32_t sample, const Options& options
 }
 
 /// The paths of all samples, each with the field that its pass samples from. Empty if they were interrupted.
-std::vector<PathRecord> trace_samples(Session& session, const Options& options, const InterruptGuard& interrupt,
-                                      Console& console) {
-    std::vector<PathRecord> paths;
+std::vector<diagnose::PathRecord> trace_samples(Session& session, const Options& options,
+                                                const InterruptGuard& interrupt, Console& console) {
+    std::vector<diagnose::PathRecord> paths;
     for (std::uint32_t sample = options.samples->first; sample <= options.samples->last; ++sample) {
         if (!come_to_path(session, sample, options, interrupt, console)) return {};
         PassReplay passes = session.pass_replay(slot_of(options.render));
-        paths.push_back(record_path(passes, field_of(passes), pixel_of(options), sample));
+        paths.push_back(diagnose::record_path(passes, diagnose::field_of(passes), pixel_of(options), sample));
     }
     return paths;
 }
@@ -78,12 +78,12 @@ int run_trace(const CommandLine& line, Console& console) {
     fields.hand_over(session, options, console);
     if (options.why) return trace_noise(session, options, interrupt, console);
 
-    const std::vector<PathRecord> paths = trace_samples(session, options, interrupt, console);
+    const std::vector<diagnose::PathRecord> paths = trace_samples(session, options, interrupt, console);
     if (paths.empty()) {
         console.log().warning("interrupted: no path is traced");
         return kExitInterrupted;
     }
-    for (const std::size_t i : by_light(paths)) {
+    for (const std::size_t i : diagnose::by_light(paths)) {
         const TracedPath traced{paths[i], *loaded.scene, options.render,
                                 options.samples->first + static_cast<std::uint32_t>(i)};
         if (console.json())

@@ -19,14 +19,14 @@ int trace_noise(Session& session, const Options& options, const InterruptGuard& 
     if (!is_trained(options)) run_passes(session, options, interrupt, console, Until::Learned);
     const FilmSlot slot = slot_of(options.render);
     const auto pixel = static_cast<std::uint32_t>(options.pixel->y * options.render.width + options.pixel->x);
-    PixelNoiseTracer tracer(pass_pair(session, slot), pixel);
+    diagnose::PixelNoiseTracer tracer(diagnose::pass_pair(session, slot), pixel);
     while (tracer.paths() < options.why_samples && tracer.advance(interrupt.flag())) {
     }
     if (!tracer.has_all_groups()) {
         console.log().warning("interrupted: too few paths for an estimate");
         return kExitInterrupted;
     }
-    const PixelNoise noise = tracer.noise();
+    const diagnose::PixelNoise noise = tracer.noise();
     const std::optional<FieldStatus> field = session.field_status(slot.method);
     const NoiseOfPicture report{noise, options.render.width, field ? field->passes : 0};
     if (console.json())

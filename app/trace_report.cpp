@@ -9,18 +9,18 @@
 namespace pl {
 namespace {
 
-std::string ending_text(PathEnd end) {
+std::string ending_text(diagnose::PathEnd end) {
     switch (end) {
-    case PathEnd::Escaped: return "no surface is met";
-    case PathEnd::Absorbed: return "the surface reflects nothing";
-    case PathEnd::Roulette: return "Russian roulette";
-    case PathEnd::DepthLimit: return "--max-depth is reached";
-    case PathEnd::ZeroDirection: return "the sampled direction has f cos = 0";
+    case diagnose::PathEnd::Escaped: return "no surface is met";
+    case diagnose::PathEnd::Absorbed: return "the surface reflects nothing";
+    case diagnose::PathEnd::Roulette: return "Russian roulette";
+    case diagnose::PathEnd::DepthLimit: return "--max-depth is reached";
+    case diagnose::PathEnd::ZeroDirection: return "the sampled direction has f cos = 0";
     }
     return "";
 }
 
-std::string surface_text(const VertexRecord& vertex, const SceneDescription& scene) {
+std::string surface_text(const diagnose::VertexRecord& vertex, const SceneDescription& scene) {
     std::string text =
         fmt::format("  position    {}, distance {}\n", print_vector(vertex.position), print_float(vertex.distance));
     text += fmt::format("  normal      {}", print_vector(vertex.geometric_normal));
@@ -35,14 +35,14 @@ std::string surface_text(const VertexRecord& vertex, const SceneDescription& sce
     return text + "\n";
 }
 
-std::string emission_text(const EmissionRecord& emission) {
+std::string emission_text(const diagnose::EmissionRecord& emission) {
     if (is_black(emission.radiance)) return "";
     return fmt::format("  emission    {}, MIS weight {}, light pdf {}: contributes {}\n",
                        print_vector(emission.radiance), print_float(emission.weight),
                        print_float(emission.light_pdf_sa), print_vector(emission.contribution));
 }
 
-std::string light_text(const LightSampleRecord& light) {
+std::string light_text(const diagnose::LightSampleRecord& light) {
     const std::string place = light.position
                                   ? fmt::format("{} on triangle {}", print_vector(*light.position), light.primitive)
                                   : std::string("far away");
@@ -53,23 +53,23 @@ std::string light_text(const LightSampleRecord& light) {
                        print_vector(light.contribution));
 }
 
-std::string roulette_text(const RouletteRecord& roulette) {
+std::string roulette_text(const diagnose::RouletteRecord& roulette) {
     return fmt::format("  roulette    contribution estimate {}, survival probability {}: {}\n",
                        print_float(roulette.estimate), print_float(roulette.survival_probability),
                        roulette.survives ? "continues" : "ends");
 }
 
-std::string direction_text(const ScatterRecord& direction) {
+std::string direction_text(const diagnose::ScatterRecord& direction) {
     std::string text =
         fmt::format("  direction   by {}, wi {}\n", name_of(direction.technique), print_vector(direction.wi));
-    if (direction.technique != Technique::Delta)
+    if (direction.technique != diagnose::Technique::Delta)
         text += fmt::format("              pdf {} (bsdf {}, field {}), f cos {}\n", print_float(direction.pdf_sa),
                             print_float(direction.bsdf_pdf_sa), print_float(direction.field_pdf_sa),
                             print_vector(direction.bsdf_cos));
     return text + fmt::format("              throughput {}\n", print_vector(direction.throughput));
 }
 
-std::string vertex_text(const VertexRecord& vertex, const SceneDescription& scene) {
+std::string vertex_text(const diagnose::VertexRecord& vertex, const SceneDescription& scene) {
     std::string text = fmt::format("\n  wo          {}\n  throughput  {}\n", print_vector(vertex.wo),
                                    print_vector(vertex.throughput));
     if (!vertex.is_escape) text += surface_text(vertex, scene);
@@ -80,14 +80,14 @@ std::string vertex_text(const VertexRecord& vertex, const SceneDescription& scen
     return text;
 }
 
-Json emission_json(const EmissionRecord& emission) {
+Json emission_json(const diagnose::EmissionRecord& emission) {
     return {{"radiance", vector_json(emission.radiance)},
             {"weight", emission.weight},
             {"light_pdf", emission.light_pdf_sa},
             {"contribution", vector_json(emission.contribution)}};
 }
 
-Json light_json(const LightSampleRecord& light) {
+Json light_json(const diagnose::LightSampleRecord& light) {
     return {{"position", light.position ? vector_json(*light.position) : Json()},
             {"triangle", light.position ? Json(light.primitive) : Json()},
             {"wi", vector_json(light.wi)},
@@ -99,7 +99,7 @@ Json light_json(const LightSampleRecord& light) {
             {"contribution", vector_json(light.contribution)}};
 }
 
-Json direction_json(const ScatterRecord& direction) {
+Json direction_json(const diagnose::ScatterRecord& direction) {
     return {{"technique", name_of(direction.technique)},
             {"wi", vector_json(direction.wi)},
             {"pdf", direction.pdf_sa},
@@ -109,7 +109,7 @@ Json direction_json(const ScatterRecord& direction) {
             {"throughput", vector_json(direction.throughput)}};
 }
 
-Json surface_json(const VertexRecord& vertex, const SceneDescription& scene) {
+Json surface_json(const diagnose::VertexRecord& vertex, const SceneDescription& scene) {
     return {{"position", vector_json(vertex.position)},
             {"geometric_normal", vector_json(vertex.geometric_normal)},
             {"shading_normal", vector_json(vertex.shading_normal)},
@@ -122,7 +122,7 @@ Json surface_json(const VertexRecord& vertex, const SceneDescription& scene) {
             {"bsdf_fraction", vertex.bsdf_fraction}};
 }
 
-Json vertex_json(const VertexRecord& vertex, const SceneDescription& scene) {
+Json vertex_json(const diagnose::VertexRecord& vertex, const SceneDescription& scene) {
     Json json{{"wo", vector_json(vertex.wo)},
               {"throughput", vector_json(vertex.throughput)},
               {"surface", vertex.is_escape ? Json() : surface_json(vertex, scene)},
@@ -141,14 +141,14 @@ Json vertex_json(const VertexRecord& vertex, const SceneDescription& scene) {
 }  // namespace
 
 std::string path_line(const TracedPath& traced) {
-    const PathRecord& path = traced.path;
+    const diagnose::PathRecord& path = traced.path;
     return fmt::format("sample {}: light {}, radiance {}; vertices {}{}; end: {}\n", traced.sample,
-                       print_float(path_light(path)), print_vector(path.radiance), path.vertices.size(),
+                       print_float(diagnose::path_light(path)), print_vector(path.radiance), path.vertices.size(),
                        path.is_guided ? ", guided" : "", name_of(path.end));
 }
 
 std::string path_text(const TracedPath& traced) {
-    const PathRecord& path = traced.path;
+    const diagnose::PathRecord& path = traced.path;
     const auto width = static_cast<std::uint32_t>(traced.settings.width);
     std::string text =
         fmt::format("pixel {},{}, sample {}, seed {}, {}{}\n", path.pixel % width, path.pixel / width, traced.sample,
@@ -160,7 +160,7 @@ std::string path_text(const TracedPath& traced) {
 }
 
 Json path_json(const TracedPath& traced) {
-    const PathRecord& path = traced.path;
+    const diagnose::PathRecord& path = traced.path;
     const auto width = static_cast<std::uint32_t>(traced.settings.width);
     Json json{{"method", info_of(traced.settings.method).name},
               {"guided", path.is_guided},
@@ -173,7 +173,8 @@ Json path_json(const TracedPath& traced) {
               {"shadow_rays", path.shadow_rays},
               {"vertices", Json::array()},
               {"end", name_of(path.end)}};
-    for (const VertexRecord& vertex : path.vertices) json["vertices"].push_back(vertex_json(vertex, traced.scene));
+    for (const diagnose::VertexRecord& vertex : path.vertices)
+        json["vertices"].push_back(vertex_json(vertex, traced.scene));
     return json;
 }
 

@@ -12,7 +12,7 @@ namespace pl {
 
 /// A path, and the picture that it belongs to.
 struct TracedPath {
-    const PathRecord& path;
+    const diagnose::PathRecord& path;
     const SceneDescription& scene;
     const RenderSettings& settings;
     std::uint32_t sample = 0;  ///< its number in the picture

@@ -25,7 +25,7 @@ std::unique_ptr<RenderBackend> make_beside_window(const std::string& name, int t
 
 /// Vertical axis, camera, parameters, materials and their reading, by the command line, belong to the scene that it names, not to scenes
 /// opened later.
-LoadSettings load_settings_of(const SceneRequest& scene, const Options& opened) {
+LoadSettings load_settings_of(const ui::SceneRequest& scene, const Options& opened) {
     LoadSettings settings{.knobs = scene.knobs, .default_light = opened.load.default_light};
     if (scene.name == opened.scene) {
         settings.up_axis = opened.load.up_axis;
@@ -37,7 +37,7 @@ LoadSettings load_settings_of(const SceneRequest& scene, const Options& opened) 
     return settings;
 }
 
-void show_sequence(const ViewerSequence& sequence, Options& shown) {
+void show_sequence(const ui::ViewerSequence& sequence, Options& shown) {
     shown.camera_path = sequence.cameras.string();
     shown.output = sequence.folder.string();
     shown.frames = sequence.frames;
@@ -49,7 +49,7 @@ void show_sequence(const ViewerSequence& sequence, Options& shown) {
 }
 
 /// `first_backend` is the back end that the options' choice selected.
-std::string command_of(const ViewerPicture& picture, const Options& opened, const std::string& first_backend) {
+std::string command_of(const ui::ViewerPicture& picture, const Options& opened, const std::string& first_backend) {
     const Options defaults = scene_defaults(picture.scene.name, *picture.description);
     Options shown = defaults;
     shown.load = load_settings_of(picture.scene, opened);
@@ -73,8 +73,8 @@ bool has_size(const CommandLine& line) {
 }
 
 /// All members but the functions.
-ViewerOptions viewer_options(const CommandLine& line, const Options& options, const LoadedScene& loaded) {
-    ViewerOptions viewer;
+ui::ViewerOptions viewer_options(const CommandLine& line, const Options& options, const LoadedScene& loaded) {
+    ui::ViewerOptions viewer;
     viewer.settings = options.render;
     viewer.display = options.display;
     viewer.limits = {.spp = options.spp.value_or(0), .seconds = options.time_limit_seconds.value_or(0.0)};
@@ -110,8 +110,8 @@ public:
     std::unique_ptr<RenderBackend> make_own(const std::string& name) const {
         return make_beside_window(name, threads_);
     }
-    BackendChoices choices() const {
-        BackendChoice cuda{.name = "cuda", .device = "", .unavailable = cuda_unavailable_reason()};
+    ui::BackendChoices choices() const {
+        ui::BackendChoice cuda{.name = "cuda", .device = "", .unavailable = cuda_unavailable_reason()};
         if (cuda.unavailable.empty()) cuda.device = cuda_devices().front().name;
         return {{.name = "cpu", .device = make_own("cpu")->info().device, .unavailable = ""}, cuda};
     }
@@ -122,14 +122,14 @@ private:
 };
 
 /// The viewer's calls into the program. All arguments outlive it.
-void add_functions(ViewerOptions& viewer, ViewerBackends& backends, const Options& options) {
+void add_functions(ui::ViewerOptions& viewer, ViewerBackends& backends, const Options& options) {
     viewer.make_backend = [&](const std::string& name) { return backends.make_shared(name); };
     viewer.make_side_backend = [&](const std::string& name) { return backends.make_own(name); };
-    viewer.load_scene = [&](const SceneRequest& request) {
+    viewer.load_scene = [&](const ui::SceneRequest& request) {
         return std::make_shared<const SceneDescription>(
             load_scene(request.name, find_assets_dir(), load_settings_of(request, options)));
     };
-    viewer.command_line = [&](const ViewerPicture& picture) {
+    viewer.command_line = [&](const ui::ViewerPicture& picture) {
         return command_of(picture, options, backends.first_name());
     };
 }
@@ -141,13 +141,13 @@ int run_view(const CommandLine& line, Console& console) {
     FieldFiles fields(line.options);
     const Options options = resolve_options(line, *loaded.scene, fields.loaded());
     ViewerBackends backends(options);
-    ViewerOptions viewer = viewer_options(line, options, loaded);
+    ui::ViewerOptions viewer = viewer_options(line, options, loaded);
     viewer.first_backend = backends.first_name();
     viewer.backends = backends.choices();
     add_functions(viewer, backends, options);
     viewer.field = fields.take(*loaded.scene, options);
     try {
-        return run_viewer(viewer);
+        return ui::run_viewer(viewer);
     } catch (const Error& error) {
         if (error.kind() != ErrorKind::Unavailable) throw;
         throw Error(ErrorKind::Unavailable,

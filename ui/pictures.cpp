@@ -7,7 +7,7 @@
 #include "ui/panels/figure_curves.h"
 #include "ui/window/offscreen.h"
 
-namespace pl {
+namespace pl::ui {
 
 PublishedFrame frame_of(Session& session, FilmSlot slot, const DisplaySettings& display) {
     PublishedFrame frame = frame_of_film(session, slot, display, false);
@@ -49,8 +49,8 @@ ByteImage PicturePainter::flowers(const PublishedFrame& frame, const FieldKeyFra
     });
 }
 
-ByteImage PicturePainter::paths(const PublishedFrame& frame, const PixelPaths& paths) const {
-    const std::vector<std::size_t> order = by_light(paths.plain);
+ByteImage PicturePainter::paths(const PublishedFrame& frame, const diagnose::PixelPaths& paths) const {
+    const std::vector<std::size_t> order = diagnose::by_light(paths.plain);
     DrawnPaths drawn{.range = light_range(paths), .escape_length = frame.facts.diagonal};
     if (!order.empty()) drawn.selected = order.front();
     const std::vector<PathPiece> pieces =
@@ -65,4 +65,4 @@ ByteImage PicturePainter::figures(const std::vector<FigurePoint>& points, int wi
     return offscreen.paint(nullptr, [&] { draw_figures(points, 0); });
 }
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -11,7 +11,7 @@
 #include "ui/worker/field_history.h"
 #include "ui/worker/published_frame.h"
 
-namespace pl {
+namespace pl::ui {
 
 /// A film as the window would show it. It has a pass.
 PublishedFrame frame_of(Session& session, FilmSlot slot, const DisplaySettings& display);
@@ -27,7 +27,7 @@ public:
     /// Lobes of every n-th volume, at most kMostFlowers.
     ByteImage flowers(const PublishedFrame& frame, const FieldKeyFrame& field) const;
     /// Paths as lines; the brightest wide, with its shadow rays and the numbers of its vertices.
-    ByteImage paths(const PublishedFrame& frame, const PixelPaths& paths) const;
+    ByteImage paths(const PublishedFrame& frame, const diagnose::PixelPaths& paths) const;
     /// Divergences and variance factor over the passes. Size in pixels.
     ByteImage figures(const std::vector<FigurePoint>& points, int width, int height) const;
 
@@ -38,4 +38,4 @@ private:
     std::filesystem::path font_;
 };
 
-}  // namespace pl
+}  // namespace pl::ui

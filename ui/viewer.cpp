@@ -23,7 +23,7 @@
 #include "ui/window/gui.h"
 #include "ui/window/image_layer.h"
 
-namespace pl {
+namespace pl::ui {
 namespace {
 
 constexpr double kLongestDelta = 0.1;  ///< seconds that one frame may move the camera
@@ -366,4 +366,4 @@ int run_viewer(const ViewerOptions& options) {
     return 0;
 }
 
-}  // namespace pl
+}  // namespace pl::ui

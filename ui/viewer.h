@@ -19,7 +19,7 @@
 #include "core/session/settings.h"
 #include "core/session/snapshot.h"
 
-namespace pl {
+namespace pl::ui {
 
 /// Rendering rests when the first one is reached. 0: no such limit.
 struct SampleLimits {
@@ -150,4 +150,4 @@ struct ViewerOptions {
 /// scene or script, Runtime if a scripted expectation fails.
 int run_viewer(const ViewerOptions& options);
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -18,7 +18,7 @@
 namespace pl {
 namespace {
 
-BenchSettings bench_settings(const CommandLine& line, Console& console) {
+bench::BenchSettings bench_settings(const CommandLine& line, Console& console) {
     const Options& options = line.options;
     return {.plan = make_bench_plan(line, console),
             .folder = options.output,
@@ -28,7 +28,7 @@ BenchSettings bench_settings(const CommandLine& line, Console& console) {
             .commit = std::string(commit_id())};
 }
 
-void tell_run(const BenchRun& run, Console& console) {
+void tell_run(const bench::BenchRun& run, Console& console) {
     console.event("run", {{"scene", run.cell.scene},
                           {"method", run.cell.method},
                           {"backend", run.cell.backend},
@@ -39,19 +39,19 @@ void tell_run(const BenchRun& run, Console& console) {
                           {"error", run.end().metrics.relmse}});
 }
 
-void tell_summary(const BenchSummary& summary, Console& console) {
-    for (const CellSummary& cell : summary.cells)
+void tell_summary(const bench::BenchSummary& summary, Console& console) {
+    for (const bench::CellSummary& cell : summary.cells)
         console.result(fmt::format("{:<40} relMSE {}, {} s, {} runs\n", cell.cell.title(),
-                                   interval_text(cell.final_error, cell.ends.size()),
-                                   interval_text(cell.seconds, cell.ends.size()), cell.ends.size()));
-    for (const Comparison& comparison : summary.comparisons)
+                                   bench::interval_text(cell.final_error, cell.ends.size()),
+                                   bench::interval_text(cell.seconds, cell.ends.size()), cell.ends.size()));
+    for (const bench::Comparison& comparison : summary.comparisons)
         console.result(
             fmt::format("{} {}\n", comparison.cell.title(), headline(comparison.gain, comparison.base_method)));
 }
 
 /// `earlier` are the results of --gate. Returns the exit code.
-int report(const BenchResults& results, const std::optional<BenchResults>& earlier, const Options& options,
-           Console& console) {
+int report(const bench::BenchResults& results, const std::optional<bench::BenchResults>& earlier,
+           const Options& options, Console& console) {
     console.event("done",
                   {{"output", options.output}, {"runs", results.runs.size()}, {"interrupted", !results.complete}});
     if (!results.complete) {
@@ -65,8 +65,8 @@ int report(const BenchResults& results, const std::optional<BenchResults>& earli
         console.log().notice(
             fmt::format("{} seeds: intervals from fewer than {} runs are rough", options.seeds, kGoodRuns));
     if (earlier)
-        console.result(
-            require_gate(gate_rows(*earlier, results, options.tolerance_percent), options.tolerance_percent));
+        console.result(bench::require_gate(bench::gate_rows(*earlier, results, options.tolerance_percent),
+                                           options.tolerance_percent));
     return 0;
 }
 
@@ -81,38 +81,39 @@ int run_methods(const CommandLine& line, Console& console) {
         share = state.share;
         progress->show(state);
     };
-    BenchObserver observer{
-        .stop = interrupt.flag(), .show = show, .on_run = [&](const BenchRun& run) { tell_run(run, console); }};
+    bench::BenchObserver observer{.stop = interrupt.flag(), .show = show, .on_run = [&](const bench::BenchRun& run) {
+                                      tell_run(run, console);
+                                  }};
     if (Communicator* const ranks = shared_ranks())
-        observer.deal = [&, ranks](const BenchPlan& plan, const std::vector<PlannedRun>& runs,
-                                   const OnFinishedRun& on_finished) {
+        observer.deal = [&, ranks](const bench::BenchPlan& plan, const std::vector<bench::PlannedRun>& runs,
+                                   const bench::OnFinishedRun& on_finished) {
             return deal_runs(*ranks, plan, runs, interrupt.flag(), on_finished);
         };
-    Bench bench(bench_settings(line, console), std::move(observer));
-    std::optional<BenchResults> earlier;
-    if (!options.gate.empty()) earlier = read_results(options.gate);
-    const BenchResults results = bench.run();
+    bench::Bench bench(bench_settings(line, console), std::move(observer));
+    std::optional<bench::BenchResults> earlier;
+    if (!options.gate.empty()) earlier = bench::read_results(options.gate);
+    const bench::BenchResults results = bench.run();
     progress.reset();
     return report(results, earlier, options, console);
 }
 
-void tell_cost(const EffectCost& cost, Console& console) {
+void tell_cost(const bench::EffectCost& cost, Console& console) {
     console.result(fmt::format("{:<36} {:<8} {:.3f} [{:.3f}, {:.3f}] {:6.0f} ns  {}\n", cost.cell.title(),
                                cost.is_needed ? "needed" : "larger", cost.ratio.value, cost.ratio.low,
                                cost.ratio.high, cost.nanoseconds, cost.effects_text()));
 }
 
 int run_effects(const CommandLine& line, Console& console) {
-    const BenchPlan plan = make_bench_plan(line, console);
+    const bench::BenchPlan plan = make_bench_plan(line, console);
     const InterruptGuard interrupt;
-    const auto costs = measure_effect_costs(
+    const auto costs = bench::measure_effect_costs(
         plan, [&](const std::string& name) { return make_own_backend(name, line.options.threads); },
-        {.stop = interrupt.flag(), .on_cost = [&](const EffectCost& cost) { tell_cost(cost, console); }});
+        {.stop = interrupt.flag(), .on_cost = [&](const bench::EffectCost& cost) { tell_cost(cost, console); }});
     if (!costs) {
         console.log().warning("interrupted: nothing was written");
         return kExitInterrupted;
     }
-    write_effect_costs(line.options.output, *costs);
+    bench::write_effect_costs(line.options.output, *costs);
     console.event("done", {{"output", line.options.output}, {"costs", costs->size()}});
     console.remark(fmt::format("{}: effects.json, effects.md\n", line.options.output));
     return 0;

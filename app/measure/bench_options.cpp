@@ -23,7 +23,7 @@ Json options_json(const Options& options) {
     return json;
 }
 
-BenchScene open_bench_scene(const CommandLine& given, const std::string& input, Console& console) {
+bench::BenchScene open_bench_scene(const CommandLine& given, const std::string& input, Console& console) {
     CommandLine line = given;
     line.options.scene = input;
     const LoadedScene loaded = open_scene(input, given.options.load, console);
@@ -41,8 +41,8 @@ BenchScene open_bench_scene(const CommandLine& given, const std::string& input, 
             .reference = {}};
 }
 
-std::vector<BenchScene> open_scenes(const CommandLine& line, Console& console) {
-    std::vector<BenchScene> scenes;
+std::vector<bench::BenchScene> open_scenes(const CommandLine& line, Console& console) {
+    std::vector<bench::BenchScene> scenes;
     std::set<std::string> names;
     for (const std::string& input : line.options.inputs) {
         scenes.push_back(open_bench_scene(line, input, console));
@@ -55,11 +55,11 @@ std::vector<BenchScene> open_scenes(const CommandLine& line, Console& console) {
 }
 
 /// Of several representations, each method that learns has one after the other.
-std::vector<BenchMethod> bench_methods(const Options& options) {
+std::vector<bench::BenchMethod> bench_methods(const Options& options) {
     std::vector<MethodId> ids = options.methods;
     if (ids.empty())
         for (const MethodInfo& info : all_methods()) ids.push_back(info.id);
-    std::vector<BenchMethod> methods;
+    std::vector<bench::BenchMethod> methods;
     for (const MethodId id : ids) {
         const MethodInfo& info = info_of(id);
         if (!info.learns || options.fields.empty()) {
@@ -77,15 +77,15 @@ std::vector<BenchMethod> bench_methods(const Options& options) {
 
 }  // namespace
 
-BenchPlan make_bench_plan(const CommandLine& line, Console& console) {
-    BenchPlan plan{.scenes = open_scenes(line, console),
-                   .methods = bench_methods(line.options),
-                   .backend_names = line.options.backends,
-                   .backends = {},
-                   .first_seed = line.options.render.seed,
-                   .seeds = line.options.seeds};
-    const bool is_on_cpu = std::ranges::any_of(plan.scenes, [&](const BenchScene& scene) {
-        return std::ranges::any_of(plan.methods, [&](const BenchMethod& method) {
+bench::BenchPlan make_bench_plan(const CommandLine& line, Console& console) {
+    bench::BenchPlan plan{.scenes = open_scenes(line, console),
+                          .methods = bench_methods(line.options),
+                          .backend_names = line.options.backends,
+                          .backends = {},
+                          .first_seed = line.options.render.seed,
+                          .seeds = line.options.seeds};
+    const bool is_on_cpu = std::ranges::any_of(plan.scenes, [&](const bench::BenchScene& scene) {
+        return std::ranges::any_of(plan.methods, [&](const bench::BenchMethod& method) {
             return !has_tables(method.settings(scene.settings).field.representation);
         });
     });

@@ -8,7 +8,7 @@
 namespace pl {
 
 /// Opens scenes and back ends. Throws Error(Usage) also for two scenes of one name.
-BenchPlan make_bench_plan(const CommandLine& line, Console& console);
+bench::BenchPlan make_bench_plan(const CommandLine& line, Console& console);
 
 /// The shell command that repeats a bench in any folder.
 std::string repeating_command(const CommandLine& line);

@@ -21,11 +21,11 @@ using OnWork = std::function<void(const Session&, FilmSlot)>;
 
 /// The message of a rank about a run: it is finished, was stopped, or has failed.
 struct Reply {
-    std::optional<FinishedRun> finished{};
+    std::optional<bench::FinishedRun> finished{};
     std::optional<Error> failure{};
 };
 
-std::string message_of(const PlannedRun& run) {
+std::string message_of(const bench::PlannedRun& run) {
     return Json{{"scene", run.scene},
                 {"method", run.method},
                 {"backend", run.backend},
@@ -34,7 +34,7 @@ std::string message_of(const PlannedRun& run) {
         .dump();
 }
 
-PlannedRun planned_from(const std::string& text) {
+bench::PlannedRun planned_from(const std::string& text) {
     const Json json = parse_json(text);
     return {.scene = json.at("scene"),
             .method = json.at("method"),
@@ -47,7 +47,7 @@ void send_reply(Communicator& ranks, const Reply& reply) {
     Json json = Json::object();
     if (reply.failure) json = {{"kind", static_cast<int>(reply.failure->kind())}, {"message", reply.failure->what()}};
     if (reply.finished)
-        json = {{"run", run_json(reply.finished->run)}, {"pictures", reply.finished->pictures.size()}};
+        json = {{"run", bench::run_json(reply.finished->run)}, {"pictures", reply.finished->pictures.size()}};
     send_text(ranks, 0, json.dump());
     if (!reply.finished) return;
     for (const LinearImage& picture : reply.finished->pictures) {
@@ -62,7 +62,7 @@ Reply receive_reply(Communicator& ranks, int from) {
         return {.failure = Error(static_cast<ErrorKind>(json.at("kind").get<int>()),
                                  ranks.name_of(from) + ": " + json.at("message").get<std::string>())};
     if (!json.contains("run")) return {};
-    FinishedRun finished{.run = run_from_json(json.at("run"))};
+    bench::FinishedRun finished{.run = bench::run_from_json(json.at("run"))};
     for (std::size_t i = 0; i < json.at("pictures").get<std::size_t>(); ++i) {
         const Json size = parse_json(receive_text(ranks, from));
         LinearImage& picture = finished.pictures.emplace_back();
@@ -77,16 +77,16 @@ Reply receive_reply(Communicator& ranks, int from) {
 /// Makes runs on this rank. The first one of each cell is a warm-up, whether it is planned or not: its time counts for nothing.
 class RunMaker {
 public:
-    RunMaker(const BenchPlan& plan, std::string host) : plan_(plan), host_(std::move(host)) {}
+    RunMaker(const bench::BenchPlan& plan, std::string host) : plan_(plan), host_(std::move(host)) {}
 
-    Reply make(const PlannedRun& planned, const StopFlag& stop, const OnWork& on_work) {
+    Reply make(const bench::PlannedRun& planned, const StopFlag& stop, const OnWork& on_work) {
         try {
             if (warmed_.insert(plan_.cell_of(planned)).second && !planned.warm_up) {
-                PlannedRun warm_up = planned;
+                bench::PlannedRun warm_up = planned;
                 warm_up.warm_up = true;
                 make_run(plan_, warm_up, &stop, on_work);
             }
-            std::optional<FinishedRun> finished = make_run(plan_, planned, &stop, on_work);
+            std::optional<bench::FinishedRun> finished = make_run(plan_, planned, &stop, on_work);
             if (finished) finished->run.host = host_;
             return {.finished = std::move(finished)};
         } catch (const Error& error) {
@@ -97,13 +97,13 @@ public:
     }
 
 private:
-    const BenchPlan& plan_;
+    const bench::BenchPlan& plan_;
     std::string host_;
-    std::set<BenchCell> warmed_;
+    std::set<bench::BenchCell> warmed_;
 };
 
 /// Rank 0 tells its plan and references to the others.
-void share_plan(Communicator& ranks, const BenchPlan& plan) {
+void share_plan(Communicator& ranks, const bench::BenchPlan& plan) {
     std::string text = plan.json().dump();
     std::vector<char> characters(text.begin(), text.end());
     broadcast_array(ranks, characters);
@@ -117,15 +117,15 @@ void share_plan(Communicator& ranks, const BenchPlan& plan) {
     }
     ranks.broadcast(bytes_of_value(all_agree));
     if (failure) throw *failure;
-    for (const BenchScene& scene : plan.scenes)
-        for (const ReferenceHalf& half : scene.reference->halves) {
+    for (const bench::BenchScene& scene : plan.scenes)
+        for (const bench::ReferenceHalf& half : scene.reference->halves) {
             std::vector<Vec3f> pixels = half.image.pixels;
             broadcast_array(ranks, pixels);
         }
 }
 
 /// Another rank's side. Returns whether all ranks have the plan of rank 0.
-bool take_plan(Communicator& ranks, const std::optional<BenchPlan>& plan, std::optional<Error> failure) {
+bool take_plan(Communicator& ranks, const std::optional<bench::BenchPlan>& plan, std::optional<Error> failure) {
     std::vector<char> characters;
     broadcast_array(ranks, characters);
     if (plan) {
@@ -144,19 +144,19 @@ bool take_plan(Communicator& ranks, const std::optional<BenchPlan>& plan, std::o
     return all_agree != 0;
 }
 
-void take_references(Communicator& ranks, BenchPlan& plan) {
-    for (BenchScene& scene : plan.scenes) {
-        Reference reference;
-        for (ReferenceHalf& half : reference.halves) broadcast_array(ranks, half.image.pixels);
-        scene.reference = std::make_shared<const Reference>(std::move(reference));
+void take_references(Communicator& ranks, bench::BenchPlan& plan) {
+    for (bench::BenchScene& scene : plan.scenes) {
+        bench::Reference reference;
+        for (bench::ReferenceHalf& half : reference.halves) broadcast_array(ranks, half.image.pixels);
+        scene.reference = std::make_shared<const bench::Reference>(std::move(reference));
     }
 }
 
 /// Rank 0's side of the deal. Its own runs are made by a second thread, so that the others do not wait for it.
 class Dealer {
 public:
-    Dealer(Communicator& ranks, const BenchPlan& plan, const std::vector<PlannedRun>& runs, const StopFlag* stop,
-           const OnFinishedRun& on_finished)
+    Dealer(Communicator& ranks, const bench::BenchPlan& plan, const std::vector<bench::PlannedRun>& runs,
+           const StopFlag* stop, const bench::OnFinishedRun& on_finished)
         : ranks_(ranks), runs_(runs), stop_(stop), on_finished_(on_finished), own_maker_(plan, ranks.host()),
           states_(static_cast<std::size_t>(ranks.size())) {}
 
@@ -192,7 +192,7 @@ private:
             State& state = states_[static_cast<std::size_t>(rank)];
             if (state.busy) continue;
             state.busy = true;
-            const PlannedRun& planned = runs_[next_++];
+            const bench::PlannedRun& planned = runs_[next_++];
             if (rank == 0)
                 own_ = std::async(std::launch::async,
                                   [this, planned] { return own_maker_.make(planned, own_stop_, {}); });
@@ -234,9 +234,9 @@ private:
     }
 
     Communicator& ranks_;
-    const std::vector<PlannedRun>& runs_;
+    const std::vector<bench::PlannedRun>& runs_;
     const StopFlag* stop_;
-    const OnFinishedRun& on_finished_;
+    const bench::OnFinishedRun& on_finished_;
     RunMaker own_maker_;
     std::vector<State> states_;
     StopFlag own_stop_{false};
@@ -248,15 +248,15 @@ private:
 
 }  // namespace
 
-bool deal_runs(Communicator& ranks, const BenchPlan& plan, const std::vector<PlannedRun>& runs, const StopFlag* stop,
-               const OnFinishedRun& on_finished) {
+bool deal_runs(Communicator& ranks, const bench::BenchPlan& plan, const std::vector<bench::PlannedRun>& runs,
+               const StopFlag* stop, const bench::OnFinishedRun& on_finished) {
     call_ranks(ranks);
     share_plan(ranks, plan);
     return Dealer(ranks, plan, runs, stop, on_finished).deal();
 }
 
 void serve_bench(Communicator& ranks, const std::vector<std::string>& arguments) {
-    std::optional<BenchPlan> plan;
+    std::optional<bench::BenchPlan> plan;
     std::optional<Error> failure;
     try {
         Options quiet;

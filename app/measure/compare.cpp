@@ -50,7 +50,7 @@ void check_pair(const Picture& picture, const Picture& reference, Console& conso
         throw Error(ErrorKind::Input, fmt::format("{}: expected a size of {}x{} as {} has, got {}x{}", picture.path,
                                                   b.width, b.height, reference.path, a.width, a.height));
     if (picture.hash() == reference.hash() || picture.hash().empty() || reference.hash().empty()) return;
-    if (!text_of(reference.metadata, kReferenceHalfKey).empty())
+    if (!text_of(reference.metadata, bench::kReferenceHalfKey).empty())
         throw Error(ErrorKind::Input,
                     fmt::format("{}: is the reference of another scene, camera, light or depth than "
                                 "{} shows",
@@ -60,7 +60,7 @@ void check_pair(const Picture& picture, const Picture& reference, Console& conso
 }
 
 /// The reference of a picture, from a folder.
-Reference reference_for(const Picture& picture, const std::string& folder) {
+bench::Reference reference_for(const Picture& picture, const std::string& folder) {
     if (picture.hash().empty())
         throw Error(ErrorKind::Input,
                     fmt::format("{}: has no picture hash, so that its reference in {} cannot be found: expected an "
@@ -69,11 +69,11 @@ Reference reference_for(const Picture& picture, const std::string& folder) {
     int max_depth = 0;
     const std::string depth = text_of(picture.metadata, "max_depth");
     std::from_chars(depth.data(), depth.data() + depth.size(), max_depth);
-    return ReferenceStore(folder).require({.picture_hash = picture.hash(),
-                                           .scene_hash = text_of(picture.metadata, "scene_hash"),
-                                           .width = picture.image.width,
-                                           .height = picture.image.height,
-                                           .max_depth = max_depth});
+    return bench::ReferenceStore(folder).require({.picture_hash = picture.hash(),
+                                                  .scene_hash = text_of(picture.metadata, "scene_hash"),
+                                                  .width = picture.image.width,
+                                                  .height = picture.image.height,
+                                                  .max_depth = max_depth});
 }
 
 struct MeasuredError {
@@ -100,7 +100,7 @@ MeasuredError compare(const Picture& picture, const ReferenceHalves& halves, Pix
 MeasuredError compare(const Picture& picture, const std::string& reference, std::optional<double> resolution,
                       Console& console) {
     if (std::filesystem::is_directory(reference)) {
-        const Reference found = reference_for(picture, reference);
+        const bench::Reference found = reference_for(picture, reference);
         const auto& [first, second] = found.halves;
         const std::vector<Vec3f> mean = weighted_mean(first.image.pixels, first.spp, second.image.pixels, second.spp);
         return compare(picture, found.pixels(), mean, resolution);
@@ -150,7 +150,7 @@ int run_compare(const CommandLine& line, Console& console) {
                {"reference", reference},
                {"width", picture.image.width},
                {"height", picture.image.height}};
-    event.update(metrics_json(metrics));
+    event.update(bench::metrics_json(metrics));
     if (comparison.flip) event.update({{"flip", *comparison.flip}, {"pixels_per_degree", *resolution}});
     console.event("compare", event);
     if (const auto target = line.options.target_error; target && metrics.relmse > *target)

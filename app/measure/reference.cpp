@@ -16,16 +16,16 @@ int run_reference(const CommandLine& line, Console& console) {
     const Options options = resolve_options(line, *loaded.scene);
     Session session(make_backend(options.backend, options.threads), loaded.scene, options.render,
                     loaded.load_seconds);
-    const ReferenceStore store(options.output);
+    const bench::ReferenceStore store(options.output);
     ProgressDisplay progress(console, !options.no_progress && !options.quiet);
-    const ReferenceOutcome outcome =
-        make_reference(session,
-                       {.scene = options.scene,
-                        .spp = options.spp_limit(),
-                        .seconds = options.time_limit_seconds,
-                        .stop = interrupt.flag(),
-                        .show = [&](const ProgressState& state) { progress.show(state); }},
-                       store);
+    const bench::ReferenceOutcome outcome =
+        bench::make_reference(session,
+                              {.scene = options.scene,
+                               .spp = options.spp_limit(),
+                               .seconds = options.time_limit_seconds,
+                               .stop = interrupt.flag(),
+                               .show = [&](const ProgressState& state) { progress.show(state); }},
+                              store);
     progress.clear();
 
     const auto& [first, second] = outcome.reference.halves;

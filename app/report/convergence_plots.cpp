@@ -14,9 +14,9 @@ constexpr int kBandPoints = 32;
 
 /// Samples per pixel at which any run of a cell was measured. Runs differ: points are left out where measuring would
 /// take too long.
-std::set<std::uint32_t> steps_of(const std::vector<const BenchRun*>& runs) {
+std::set<std::uint32_t> steps_of(const std::vector<const bench::BenchRun*>& runs) {
     std::set<std::uint32_t> steps;
-    for (const BenchRun* run : runs)
+    for (const bench::BenchRun* run : runs)
         for (const RunPoint& point : run->series.points) steps.insert(point.spp);
     return steps;
 }
@@ -35,10 +35,11 @@ std::optional<double> mean_at(const std::vector<Curve>& curves, double cost) {
     return interval && interval->value > 0.0 ? std::optional(interval->value) : std::nullopt;
 }
 
-std::vector<PlotPoint> line_of(const std::vector<BenchRun>& all, const CellSummary& cell, bool over_time) {
-    std::vector<const BenchRun*> runs;
+std::vector<PlotPoint> line_of(const std::vector<bench::BenchRun>& all, const bench::CellSummary& cell,
+                               bool over_time) {
+    std::vector<const bench::BenchRun*> runs;
     std::vector<Curve> seconds;
-    for (const BenchRun& run : all)
+    for (const bench::BenchRun& run : all)
         if (!run.warm_up && run.cell == cell.cell) {
             runs.push_back(&run);
             seconds.push_back(seconds_over_samples(run.series));
@@ -76,13 +77,13 @@ int style_of(const Json& plan, const std::string& backend) {
     return style;
 }
 
-Plot make_plot(const BenchResults& results, const std::string& scene, bool over_time) {
+Plot make_plot(const bench::BenchResults& results, const std::string& scene, bool over_time) {
     Plot plot{.title = scene,
               .x_label = over_time ? "seconds: placing, precomputing, learning, rendering" : "samples per pixel",
               .y_label = "relative squared error (relMSE)",
               .series = {}};
     plot.floor = results.references.value(scene, Json::object()).value("noise_relmse", 0.0);
-    for (const CellSummary& cell : results.summary.cells) {
+    for (const bench::CellSummary& cell : results.summary.cells) {
         if (cell.cell.scene != scene) continue;
         plot.series.push_back({.name = fmt::format("{}, {}", cell.cell.method, cell.cell.backend),
                                .color = method_color(cell.cell.method),
@@ -101,7 +102,7 @@ std::vector<std::string> scene_order(const Json& plan) {
     return names;
 }
 
-std::vector<NamedPlot> convergence_plots(const BenchResults& results) {
+std::vector<NamedPlot> convergence_plots(const bench::BenchResults& results) {
     std::vector<NamedPlot> plots;
     for (const std::string& scene : scene_order(results.plan)) {
         plots.push_back({scene, scene + "-time", make_plot(results, scene, true)});

@@ -14,7 +14,7 @@ struct NamedPlot {
 
 /// Two plots of every scene. Points are geometric means where all runs are measured, bands the 95 % intervals at
 /// equal time or equal samples; no bands below kFewestRuns runs.
-std::vector<NamedPlot> convergence_plots(const BenchResults& results);
+std::vector<NamedPlot> convergence_plots(const bench::BenchResults& results);
 
 /// Names of the scenes of a bench in the order of its plan.
 std::vector<std::string> scene_order(const Json& plan);

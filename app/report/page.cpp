@@ -15,9 +15,9 @@ std::string row(const std::vector<std::string>& cells, const char* tag = "td") {
     return text + "</tr>\n";
 }
 
-std::string headlines(const BenchSummary& summary, const std::string& scene) {
+std::string headlines(const bench::BenchSummary& summary, const std::string& scene) {
     std::string text;
-    for (const Comparison& comparison : summary.comparisons)
+    for (const bench::Comparison& comparison : summary.comparisons)
         if (comparison.cell.scene == scene)
             text += fmt::format("<p class=\"headline\"><b>{}</b> on {} {}.</p>\n",
                                 escape_markup(comparison.cell.method), escape_markup(comparison.cell.backend),
@@ -25,40 +25,40 @@ std::string headlines(const BenchSummary& summary, const std::string& scene) {
     return text;
 }
 
-std::string cell_table(const BenchSummary& summary, const std::string& scene) {
+std::string cell_table(const bench::BenchSummary& summary, const std::string& scene) {
     std::string text = "<table>\n" + row({"method", "back end", "runs", "relMSE at the end", "trimmed", "seconds",
                                           "set-up s", "ms per sample", "slope", "bias %", "warm-up s"},
                                          "th");
-    for (const CellSummary& cell : summary.cells) {
+    for (const bench::CellSummary& cell : summary.cells) {
         if (cell.cell.scene != scene) continue;
         const std::size_t runs = cell.ends.size();
         const Interval bias{100.0 * cell.signed_bias_interval.value, 100.0 * cell.signed_bias_interval.low,
                             100.0 * cell.signed_bias_interval.high};
-        text +=
-            row({cell.cell.method, cell.cell.backend, std::to_string(runs), interval_text(cell.final_error, runs),
-                 interval_text(cell.final_trimmed, runs), interval_text(cell.seconds, runs),
-                 interval_text(cell.setup_seconds, runs), fmt::format("{:.3g}", 1e3 * cell.seconds_per_sample.value),
-                 interval_text(cell.slope, runs), interval_text(bias, runs),
-                 cell.warm_up_seconds > 0.0 ? fmt::format("{:.3g}", cell.warm_up_seconds) : "none"});
+        text += row({cell.cell.method, cell.cell.backend, std::to_string(runs),
+                     bench::interval_text(cell.final_error, runs), bench::interval_text(cell.final_trimmed, runs),
+                     bench::interval_text(cell.seconds, runs), bench::interval_text(cell.setup_seconds, runs),
+                     fmt::format("{:.3g}", 1e3 * cell.seconds_per_sample.value),
+                     bench::interval_text(cell.slope, runs), bench::interval_text(bias, runs),
+                     cell.warm_up_seconds > 0.0 ? fmt::format("{:.3g}", cell.warm_up_seconds) : "none"});
     }
     return text + "</table>\n";
 }
 
 std::string time_text(const TimeToTarget& time) {
     if (time.reached == 0) return fmt::format("> {:.3g}", time.more_than);
-    const std::string reached = interval_text(time.cost, time.reached);
+    const std::string reached = bench::interval_text(time.cost, time.reached);
     if (time.censored == 0) return reached;
     return fmt::format("{}; {} of {} runs > {:.3g}", reached, time.censored, time.reached + time.censored,
                        time.more_than);
 }
 
-std::string target_table(const BenchSummary& summary, const std::string& scene) {
+std::string target_table(const bench::BenchSummary& summary, const std::string& scene) {
     const std::vector<double> targets = summary.targets(scene);
     if (targets.empty()) return "";
     std::vector<std::string> head{"method", "back end"};
     for (const double target : targets) head.push_back(fmt::format("s to relMSE {:.2g}", target));
     std::string text = "<table>\n" + row(head, "th");
-    for (const CellSummary& cell : summary.cells) {
+    for (const bench::CellSummary& cell : summary.cells) {
         if (cell.cell.scene != scene) continue;
         std::vector<std::string> cells{cell.cell.method, cell.cell.backend};
         for (const double target : targets) cells.push_back(time_text(time_to_target(cell.over_time, target)));
@@ -97,30 +97,30 @@ std::string definitions() {
            "over samples is -1 where only noise is left. Full definitions are in results.json.</p>\n";
 }
 
-std::string about(const BenchResults& results) {
+std::string about(const bench::BenchResults& results) {
     std::string devices;
     for (const auto& [name, device] : results.plan.at("backends").items())
         devices += fmt::format("{}{}: {}, {} threads", devices.empty() ? "" : "; ", name,
                                device.at("device").get<std::string>(), device.at("threads").get<int>());
     double share = 0.0;
-    for (const CellSummary& cell : results.summary.cells) share = std::max(share, cell.measure_share);
+    for (const bench::CellSummary& cell : results.summary.cells) share = std::max(share, cell.measure_share);
     return fmt::format(
         "<p>{}; pathlight {}, commit {}; {}. Runs are in shuffled blocks of one seed each; the first run of each "
         "method is a warm-up and left out. Measuring took up to {:.1f} % on top of the charged time.</p>\n"
         "<pre>{}</pre>\n",
         escape_markup(results.date), PL_VERSION,
-        escape_markup(fmt::format("{}", fmt::join(commits_of(results.runs), ", "))), escape_markup(devices),
+        escape_markup(fmt::format("{}", fmt::join(bench::commits_of(results.runs), ", "))), escape_markup(devices),
         100.0 * share, escape_markup(results.command));
 }
 
-std::string warnings(const BenchResults& results) {
+std::string warnings(const bench::BenchResults& results) {
     std::string text;
     if (!results.complete)
         text += "<p class=\"warning\">The bench was interrupted: these are the runs that were finished.</p>\n";
     std::uint64_t invalid = 0;
     std::size_t below = 0;
     std::size_t fewest = kGoodRuns;
-    for (const CellSummary& cell : results.summary.cells) {
+    for (const bench::CellSummary& cell : results.summary.cells) {
         invalid += cell.invalid_samples;
         below += cell.below_reference;
         fewest = std::min(fewest, cell.ends.size());
@@ -145,7 +145,8 @@ std::string script_json(const Json& json) {
 
 }  // namespace
 
-std::string report_page(const BenchResults& results, const std::vector<NamedPlot>& plots, const Json& pictures) {
+std::string report_page(const bench::BenchResults& results, const std::vector<NamedPlot>& plots,
+                        const Json& pictures) {
     std::string text =
         fmt::format("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
                     "<title>pathlight: what accuracy costs in time</title>\n<style>{}</style>\n</head>\n"

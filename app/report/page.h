@@ -8,7 +8,8 @@
 
 namespace pl {
 
-std::string report_page(const BenchResults& results, const std::vector<NamedPlot>& plots, const Json& pictures);
+std::string report_page(const bench::BenchResults& results, const std::vector<NamedPlot>& plots,
+                        const Json& pictures);
 
 /// Style and behavior of the page. The script finds the pictures in the element "pictures".
 extern const char* const kPageStyle;

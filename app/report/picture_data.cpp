@@ -54,7 +54,7 @@ std::vector<const RunPoint*> chosen_points(const RunSeries& series) {
     return points;
 }
 
-Json cell_data(const BenchFolder& folder, const BenchRun& run, float exposure_ev) {
+Json cell_data(const bench::BenchFolder& folder, const bench::BenchRun& run, float exposure_ev) {
     Json points = Json::array();
     for (const RunPoint* point : chosen_points(run.series)) {
         const std::filesystem::path path = folder.picture_path(run.cell, point->spp);
@@ -70,7 +70,7 @@ Json cell_data(const BenchFolder& folder, const BenchRun& run, float exposure_ev
             {"points", points}};
 }
 
-Json scene_data(const BenchFolder& folder, const BenchResults& results, const std::string& scene) {
+Json scene_data(const bench::BenchFolder& folder, const bench::BenchResults& results, const std::string& scene) {
     Json data{{"scene", scene}, {"exposure_ev", 0.0f}, {"cropped", false}, {"reference", nullptr}};
     float exposure_ev = 0.0f;
     if (const auto path = folder.reference_picture_path(scene); std::filesystem::exists(path)) {
@@ -81,8 +81,8 @@ Json scene_data(const BenchFolder& folder, const BenchResults& results, const st
     }
     data["exposure_ev"] = exposure_ev;
     Json cells = Json::array();
-    for (const CellSummary& cell : results.summary.cells)
-        for (const BenchRun& run : results.runs)
+    for (const bench::CellSummary& cell : results.summary.cells)
+        for (const bench::BenchRun& run : results.runs)
             if (cell.cell.scene == scene && run.cell == cell.cell && !run.warm_up &&
                 run.seed == results.plan.at("first_seed").get<std::uint64_t>())
                 cells.push_back(cell_data(folder, run, exposure_ev));
@@ -92,7 +92,7 @@ Json scene_data(const BenchFolder& folder, const BenchResults& results, const st
 
 }  // namespace
 
-Json picture_data(const BenchFolder& folder, const BenchResults& results) {
+Json picture_data(const bench::BenchFolder& folder, const bench::BenchResults& results) {
     Json data = Json::array();
     for (const std::string& scene : scene_order(results.plan)) data.push_back(scene_data(folder, results, scene));
     return data;

@@ -9,8 +9,8 @@
 namespace pl {
 
 int run_report(const CommandLine& line, Console& console) {
-    const BenchFolder folder(line.options.inputs.front());
-    const BenchResults results = read_results(folder.path() / "results.json");
+    const bench::BenchFolder folder(line.options.inputs.front());
+    const bench::BenchResults results = bench::read_results(folder.path() / "results.json");
     const std::vector<NamedPlot> plots = convergence_plots(results);
     for (const NamedPlot& plot : plots) {
         write_text_file_atomic(folder.path() / (plot.file + ".svg"), svg_plot(plot.plot));

@@ -8,7 +8,7 @@
 
 #include "core/bench/make_reference.h"
 
-namespace pl {
+namespace pl::bench {
 namespace {
 
 std::string utc_date() {
@@ -171,4 +171,4 @@ void Bench::keep(FinishedRun finished) const {
     if (observer_.on_run) observer_.on_run(run);
 }
 
-}  // namespace pl
+}  // namespace pl::bench

@@ -12,7 +12,7 @@
 #include "core/bench/bench_results.h"
 #include "core/bench/make_run.h"
 
-namespace pl {
+namespace pl::bench {
 
 struct BenchSettings {
     BenchPlan plan;
@@ -61,4 +61,4 @@ private:
     BenchFolder folder_;
 };
 
-}  // namespace pl
+}  // namespace pl::bench

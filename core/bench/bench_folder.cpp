@@ -7,7 +7,7 @@
 
 #include "core/io/json_file.h"
 
-namespace pl {
+namespace pl::bench {
 namespace {
 
 namespace fs = std::filesystem;
@@ -87,4 +87,4 @@ void BenchFolder::save_reference_picture(const std::string& scene, const LinearI
     write_exr(reference_picture_path(scene), picture, {{"scene", scene}}, ExrNumbers::Half);
 }
 
-}  // namespace pl
+}  // namespace pl::bench

@@ -8,7 +8,7 @@
 #include "core/bench/bench_run.h"
 #include "core/io/image.h"
 
-namespace pl {
+namespace pl::bench {
 
 /// plan.json, runs/, pictures/, references/, results.json and tables.
 class BenchFolder {
@@ -43,4 +43,4 @@ private:
 inline constexpr std::string_view kPlanSchema = "pathlight.bench-plan/1";
 inline constexpr std::string_view kResultsSchema = "pathlight.bench/1";
 
-}  // namespace pl
+}  // namespace pl::bench

@@ -5,7 +5,7 @@
 
 #include "core/bench/bench_folder.h"
 
-namespace pl {
+namespace pl::bench {
 namespace {
 
 /// Recorded, so that a bench can be repeated in the same order.
@@ -56,4 +56,4 @@ Json BenchPlan::json() const {
             {"backends", devices},   {"first_seed", first_seed}, {"seeds", seeds},       {"order_seed", kOrderSeed}};
 }
 
-}  // namespace pl
+}  // namespace pl::bench

@@ -13,7 +13,7 @@
 #include "core/scene/description.h"
 #include "core/session/backend.h"
 
-namespace pl {
+namespace pl::bench {
 
 struct BenchScene {
     std::string name;    ///< of its file; distinguishes the scenes of a bench
@@ -60,4 +60,4 @@ struct BenchPlan {
     Json json() const;
 };
 
-}  // namespace pl
+}  // namespace pl::bench

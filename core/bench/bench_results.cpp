@@ -9,7 +9,7 @@
 #include "core/bench/metrics_json.h"
 #include "core/io/files.h"
 
-namespace pl {
+namespace pl::bench {
 namespace {
 
 Json number_json(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
@@ -215,4 +215,4 @@ BenchResults read_results(const std::filesystem::path& file) {
     });
 }
 
-}  // namespace pl
+}  // namespace pl::bench

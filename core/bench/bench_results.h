@@ -4,7 +4,7 @@
 #include "core/bench/bench_folder.h"
 #include "core/bench/bench_summary.h"
 
-namespace pl {
+namespace pl::bench {
 
 struct BenchResults {
     Json plan;
@@ -30,4 +30,4 @@ std::string interval_text(const Interval& interval, std::size_t runs);
 /// The methods of a plan, in its order.
 std::vector<std::string> method_order(const Json& plan);
 
-}  // namespace pl
+}  // namespace pl::bench

@@ -6,7 +6,7 @@
 #include "core/bench/clocks_json.h"
 #include "core/bench/metrics_json.h"
 
-namespace pl {
+namespace pl::bench {
 namespace {
 
 Json estimate_json(const std::optional<Estimate>& estimate) {
@@ -110,4 +110,4 @@ BenchRun run_from_json(const Json& json) {
     return run;
 }
 
-}  // namespace pl
+}  // namespace pl::bench

@@ -9,7 +9,7 @@
 #include "core/io/json_file.h"
 #include "core/measure/run_recorder.h"
 
-namespace pl {
+namespace pl::bench {
 
 /// The unit of comparison: runs of the same cell differ in their seeds alone.
 struct BenchCell {
@@ -43,4 +43,4 @@ BenchRun run_from_json(const Json& json);
 
 inline constexpr std::string_view kRunSchema = "pathlight.run/1";
 
-}  // namespace pl
+}  // namespace pl::bench

@@ -5,7 +5,7 @@
 #include <limits>
 #include <tuple>
 
-namespace pl {
+namespace pl::bench {
 namespace {
 
 template <class Value>
@@ -95,4 +95,4 @@ BenchSummary summarize(const std::vector<BenchRun>& runs, const std::vector<std:
     return summary;
 }
 
-}  // namespace pl
+}  // namespace pl::bench

@@ -8,7 +8,7 @@
 #include "core/bench/bench_run.h"
 #include "core/measure/gain.h"
 
-namespace pl {
+namespace pl::bench {
 
 /// All runs of a cell but the warm-up.
 struct CellSummary {
@@ -55,4 +55,4 @@ struct BenchSummary {
 /// `method_order`: the first method in it that has runs is the baseline.
 BenchSummary summarize(const std::vector<BenchRun>& runs, const std::vector<std::string>& method_order);
 
-}  // namespace pl
+}  // namespace pl::bench

@@ -1,6 +1,6 @@
 #include "core/bench/clocks_json.h"
 
-namespace pl {
+namespace pl::bench {
 
 Json clocks_json(const Clocks& clocks, const Json& sums) {
     Json json{{"load", clocks.load},    {"build", clocks.build},           {"upload", clocks.upload},
@@ -20,4 +20,4 @@ Clocks clocks_from(const Json& json) {
             .render = json.at("render")};
 }
 
-}  // namespace pl
+}  // namespace pl::bench

@@ -10,7 +10,7 @@
 #include "core/scene/needed_effects.h"
 #include "core/session/session.h"
 
-namespace pl {
+namespace pl::bench {
 namespace {
 
 /// Passes of one turn: few, so that turns of different kernels see the same state of the machine.
@@ -147,4 +147,4 @@ void write_effect_costs(const std::filesystem::path& folder, const std::vector<E
     write_text_file_atomic(folder / "effects.md", costs_table(costs));
 }
 
-}  // namespace pl
+}  // namespace pl::bench

@@ -8,7 +8,7 @@
 #include "core/measure/statistics.h"
 #include "core/session/backend_factory.h"
 
-namespace pl {
+namespace pl::bench {
 
 /// One kernel on one scene, method and back end.
 struct EffectCost {
@@ -39,4 +39,4 @@ std::optional<std::vector<EffectCost>> measure_effect_costs(const BenchPlan& pla
 /// Writes effects.json (schema "pathlight.effects/1") and effects.md.
 void write_effect_costs(const std::filesystem::path& folder, const std::vector<EffectCost>& costs);
 
-}  // namespace pl
+}  // namespace pl::bench

@@ -6,7 +6,7 @@
 #include "core/measure/noise.h"
 #include "core/measure/run_recorder.h"
 
-namespace pl {
+namespace pl::bench {
 
 bool ErrorTarget::is_met(const Session& session, FilmSlot slot) {
     const std::uint32_t passes = session.passes(slot);
@@ -41,4 +41,4 @@ void ErrorTarget::measure(const Session& session, FilmSlot slot) {
     budget_.spend(watch.seconds());
 }
 
-}  // namespace pl
+}  // namespace pl::bench

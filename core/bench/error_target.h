@@ -8,7 +8,7 @@
 #include "core/measure/measure_budget.h"
 #include "core/session/session.h"
 
-namespace pl {
+namespace pl::bench {
 
 /// Measures a picture from time to time; the measurements stay within their share of the charged time.
 class ErrorTarget {
@@ -48,4 +48,4 @@ private:
     std::uint32_t next_passes_ = 2;
 };
 
-}  // namespace pl
+}  // namespace pl::bench

@@ -7,7 +7,7 @@
 
 #include "core/base/error.h"
 
-namespace pl {
+namespace pl::bench {
 namespace {
 
 std::map<std::string, std::string> picture_hashes(const Json& plan) {
@@ -63,4 +63,4 @@ std::string require_gate(const std::vector<GateRow>& rows, double tolerance_perc
     return text;
 }
 
-}  // namespace pl
+}  // namespace pl::bench

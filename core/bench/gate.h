@@ -3,7 +3,7 @@
 
 #include "core/bench/bench_results.h"
 
-namespace pl {
+namespace pl::bench {
 
 struct GateRow {
     BenchCell cell;
@@ -19,4 +19,4 @@ std::vector<GateRow> gate_rows(const BenchResults& earlier, const BenchResults& 
 /// One line per row. Throws Error(Threshold) if a row has failed.
 std::string require_gate(const std::vector<GateRow>& rows, double tolerance_percent);
 
-}  // namespace pl
+}  // namespace pl::bench

@@ -8,7 +8,7 @@
 #include "core/base/timer.h"
 #include "core/io/camera_file.h"
 
-namespace pl {
+namespace pl::bench {
 namespace {
 
 /// Length of a stretch of passes, which a crash may lose; the first ones are shorter, so that both halves soon have samples.
@@ -125,4 +125,4 @@ ReferenceOutcome make_reference(Session& session, const ReferencePlan& plan, con
     return ReferenceMaker(session, plan, store).run();
 }
 
-}  // namespace pl
+}  // namespace pl::bench

@@ -8,7 +8,7 @@
 #include "core/bench/reference_store.h"
 #include "core/session/session.h"
 
-namespace pl {
+namespace pl::bench {
 
 struct ReferenceOutcome {
     Reference reference;
@@ -30,4 +30,4 @@ struct ReferencePlan {
 /// nothing. Changes the session's seed: each half, and each stretch of passes, has random numbers of its own.
 ReferenceOutcome make_reference(Session& session, const ReferencePlan& plan, const ReferenceStore& store);
 
-}  // namespace pl
+}  // namespace pl::bench

@@ -1,6 +1,6 @@
 #include "core/bench/make_run.h"
 
-namespace pl {
+namespace pl::bench {
 
 std::optional<FinishedRun> make_run(const BenchPlan& plan, const PlannedRun& planned, const StopFlag* stop,
                                     const std::function<void(const Session&, FilmSlot)>& on_work) {
@@ -28,4 +28,4 @@ std::optional<FinishedRun> make_run(const BenchPlan& plan, const PlannedRun& pla
     return finished;
 }
 
-}  // namespace pl
+}  // namespace pl::bench

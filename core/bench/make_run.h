@@ -7,7 +7,7 @@
 
 #include "core/bench/bench_plan.h"
 
-namespace pl {
+namespace pl::bench {
 
 struct FinishedRun {
     BenchRun run;
@@ -19,4 +19,4 @@ struct FinishedRun {
 std::optional<FinishedRun> make_run(const BenchPlan& plan, const PlannedRun& planned, const StopFlag* stop,
                                     const std::function<void(const Session&, FilmSlot)>& on_work);
 
-}  // namespace pl
+}  // namespace pl::bench

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace pl {
+namespace pl::bench {
 
 Json metrics_json(const Metrics& m) {
     return {{"mse", m.mse},
@@ -35,4 +35,4 @@ Json metric_definitions() {
             {"psnr_db", "10 log10(1 / mse)"}};
 }
 
-}  // namespace pl
+}  // namespace pl::bench

@@ -4,7 +4,7 @@
 #include "core/io/json_file.h"
 #include "core/measure/metrics.h"
 
-namespace pl {
+namespace pl::bench {
 
 /// psnr_db is null for equal pictures, whose value is infinite.
 Json metrics_json(const Metrics& metrics);
@@ -12,4 +12,4 @@ Json metrics_json(const Metrics& metrics);
 /// Definitions by name, which document the exports.
 Json metric_definitions();
 
-}  // namespace pl
+}  // namespace pl::bench

@@ -11,7 +11,7 @@
 #include "core/measure/picture_identity.h"
 #include "core/scene/scene_hash.h"
 
-namespace pl {
+namespace pl::bench {
 namespace {
 
 namespace fs = std::filesystem;
@@ -144,4 +144,4 @@ fs::path ReferenceStore::save_manifest(const Reference& reference, const Json& a
     return path;
 }
 
-}  // namespace pl
+}  // namespace pl::bench

@@ -12,7 +12,7 @@
 #include "core/measure/noise.h"
 #include "core/session/settings.h"
 
-namespace pl {
+namespace pl::bench {
 
 /// Everything that a picture and its reference have in common.
 struct PictureContent {
@@ -74,4 +74,4 @@ inline constexpr std::string_view kReferenceSchema = "pathlight.reference/1";
 /// Metadata of a half: "1" or "2".
 inline constexpr const char* kReferenceHalfKey = "reference_half";
 
-}  // namespace pl
+}  // namespace pl::bench

@@ -1,6 +1,6 @@
 #include "core/diagnose/contributions.h"
 
-namespace pl {
+namespace pl::diagnose {
 namespace {
 
 FoundBy found_by(Technique technique) {
@@ -50,4 +50,4 @@ std::vector<Contribution> contributions_of(const PathRecord& path) {
     return all;
 }
 
-}  // namespace pl
+}  // namespace pl::diagnose

@@ -7,7 +7,7 @@
 
 #include "core/diagnose/path_record.h"
 
-namespace pl {
+namespace pl::diagnose {
 
 /// The technique that found the light of a contribution.
 enum class FoundBy : std::uint32_t {
@@ -36,4 +36,4 @@ struct Contribution {
 /// All that are not black. Their sum is the luminance of PathRecord::radiance, but for rounding.
 std::vector<Contribution> contributions_of(const PathRecord& path);
 
-}  // namespace pl
+}  // namespace pl::diagnose

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-namespace pl {
+namespace pl::diagnose {
 namespace {
 
 constexpr std::array<DiagnosticInfo, kDiagnosticCount> kDiagnostics{
@@ -61,4 +61,4 @@ std::string summary_of(const DiagnosticsMap& map) {
     return text + (map.has_moving_tables ? ", with the field as learned by now" : "");
 }
 
-}  // namespace pl
+}  // namespace pl::diagnose

@@ -12,7 +12,7 @@
 
 #include "core/session/snapshot.h"
 
-namespace pl {
+namespace pl::diagnose {
 
 enum class DiagnosticKind : std::uint32_t {
     InvalidSample,  ///< NaN, infinite or negative: left out of the film
@@ -63,4 +63,4 @@ struct DiagnosticsMap {
 /// "12 invalid in 7 pixels, 3 escaped in 3 pixels", for display.
 std::string summary_of(const DiagnosticsMap& map);
 
-}  // namespace pl
+}  // namespace pl::diagnose

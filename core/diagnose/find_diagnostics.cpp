@@ -6,7 +6,7 @@
 #include "core/diagnose/record_path.h"
 #include "core/diagnose/replay_path.h"
 
-namespace pl {
+namespace pl::diagnose {
 namespace {
 
 /// Targets depend on the present field, which differs too much from that of older passes.
@@ -99,4 +99,4 @@ DiagnosticsMap find_diagnostics(DiagnosticsInput source, int threads, const Stop
     return Search(std::move(source), threads, stop).run(told);
 }
 
-}  // namespace pl
+}  // namespace pl::diagnose

@@ -6,7 +6,7 @@
 #include "core/diagnose/diagnostics.h"
 #include "core/session/session.h"
 
-namespace pl {
+namespace pl::diagnose {
 
 /// The passes to search, and their counts.
 struct DiagnosticsInput {
@@ -24,4 +24,4 @@ DiagnosticsInput diagnostics_input(const Session& session, FilmSlot slot);
 DiagnosticsMap find_diagnostics(DiagnosticsInput source, int threads, const StopFlag* stop = nullptr,
                                 const std::function<void(double share)>& told = {});
 
-}  // namespace pl
+}  // namespace pl::diagnose

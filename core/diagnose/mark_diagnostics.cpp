@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 
-namespace pl {
+namespace pl::diagnose {
 namespace {
 
 constexpr int kRingRadius = 4;
@@ -60,4 +60,4 @@ void mark_diagnostics(const DiagnosticsMap& map, PixelRows picture) {
     draw_rings(map, 0, picture);  // above the rings
 }
 
-}  // namespace pl
+}  // namespace pl::diagnose

@@ -6,7 +6,7 @@
 
 #include "core/diagnose/diagnostics.h"
 
-namespace pl {
+namespace pl::diagnose {
 
 /// Pixels of a picture in place: rows of ARGB, `pitch` pixels apart.
 struct PixelRows {
@@ -23,4 +23,4 @@ struct PixelRows {
 /// the map's size.
 void mark_diagnostics(const DiagnosticsMap& map, PixelRows picture);
 
-}  // namespace pl
+}  // namespace pl::diagnose

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace pl {
+namespace pl::diagnose {
 namespace {
 
 constexpr std::size_t kFirstBounce = kFoundByCount;
@@ -106,4 +106,4 @@ std::optional<Gain> pixel_gain(const NoiseSums& base, const NoiseSums& method) {
                 .ahead_from_seconds = std::nullopt};
 }
 
-}  // namespace pl
+}  // namespace pl::diagnose

@@ -9,7 +9,7 @@
 #include "core/measure/gain.h"
 #include "core/measure/jackknife.h"
 
-namespace pl {
+namespace pl::diagnose {
 
 /// Bounces are told apart up to one less; the last class has all others.
 inline constexpr std::size_t kBounceClasses = 9;
@@ -70,4 +70,4 @@ private:
 /// leaves out the same groups of both. Empty if one of the two has no variance.
 std::optional<Gain> pixel_gain(const NoiseSums& base, const NoiseSums& method);
 
-}  // namespace pl
+}  // namespace pl::diagnose

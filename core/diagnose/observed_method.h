@@ -5,7 +5,7 @@
 #include "core/kernel/methods/guided.h"
 #include "core/kernel/methods/targets/expected_sarsa.h"
 
-namespace pl {
+namespace pl::diagnose {
 
 /// Choices since the last vertex.
 struct ObservedChoices {
@@ -62,4 +62,4 @@ struct Observed : M {
     void record_light(const typename M::Light&, bool is_visible) const { choices->is_light_visible = is_visible; }
 };
 
-}  // namespace pl
+}  // namespace pl::diagnose

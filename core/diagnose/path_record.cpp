@@ -1,6 +1,6 @@
 #include "core/diagnose/path_record.h"
 
-namespace pl {
+namespace pl::diagnose {
 
 std::string_view name_of(Technique technique) {
     switch (technique) {
@@ -22,4 +22,4 @@ std::string_view name_of(PathEnd end) {
     return "absorbed";
 }
 
-}  // namespace pl
+}  // namespace pl::diagnose

@@ -10,7 +10,7 @@
 #include "core/kernel/geometry/ray.h"
 #include "core/kernel/guiding/placement_view.h"
 
-namespace pl {
+namespace pl::diagnose {
 
 /// The technique that a scattered direction was sampled by.
 enum class Technique : std::uint32_t {
@@ -110,4 +110,4 @@ struct PathRecord {
     PathEnd end = PathEnd::Absorbed;  ///< of the last vertex
 };
 
-}  // namespace pl
+}  // namespace pl::diagnose

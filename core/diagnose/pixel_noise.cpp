@@ -4,7 +4,7 @@
 #include "core/diagnose/record_path.h"
 #include "core/diagnose/replay_path.h"
 
-namespace pl {
+namespace pl::diagnose {
 
 PixelNoiseTracer::PixelNoiseTracer(PassPair passes, std::uint32_t pixel) : passes_(std::move(passes)), pixel_(pixel) {
     passes_.plain.path.stream = Stream::Inspection;
@@ -44,4 +44,4 @@ PixelNoise PixelNoiseTracer::noise() const {
     return noise;
 }
 
-}  // namespace pl
+}  // namespace pl::diagnose

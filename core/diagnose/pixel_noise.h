@@ -4,7 +4,7 @@
 #include "core/diagnose/noise_sums.h"
 #include "core/diagnose/pixel_paths.h"
 
-namespace pl {
+namespace pl::diagnose {
 
 struct PixelNoise {
     std::uint32_t pixel = 0;  ///< row-major
@@ -44,4 +44,4 @@ private:
     NoiseSums guided_;
 };
 
-}  // namespace pl
+}  // namespace pl::diagnose

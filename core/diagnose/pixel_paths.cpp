@@ -5,7 +5,7 @@
 
 #include "core/diagnose/record_path.h"
 
-namespace pl {
+namespace pl::diagnose {
 namespace {
 
 PassReplay without_field(const PassReplay& passes) {
@@ -88,4 +88,4 @@ std::vector<std::size_t> by_light(const std::vector<PathRecord>& paths) {
     return order;
 }
 
-}  // namespace pl
+}  // namespace pl::diagnose

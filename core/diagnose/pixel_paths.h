@@ -8,7 +8,7 @@
 #include "core/diagnose/path_record.h"
 #include "core/session/session.h"
 
-namespace pl {
+namespace pl::diagnose {
 
 /// Passes of a picture by the baseline method and, where a field is learned, guided by it. The paths of a pass and pixel have the
 /// same random numbers in both.
@@ -59,4 +59,4 @@ float path_light(const PathRecord& path);
 /// Indices of paths, brightest first; of equal ones the first.
 std::vector<std::size_t> by_light(const std::vector<PathRecord>& paths);
 
-}  // namespace pl
+}  // namespace pl::diagnose

@@ -6,7 +6,7 @@
 #include "core/kernel/integrator/sampled_lights.h"
 #include "core/kernel/integrator/trace_path.h"
 
-namespace pl {
+namespace pl::diagnose {
 namespace {
 
 /// The kernel of all features traces the same bits as the one that rendered the pass.
@@ -212,4 +212,4 @@ PathRecord record_path(const PassReplay& passes, const AnyFieldView& field, std:
     return record;
 }
 
-}  // namespace pl
+}  // namespace pl::diagnose

@@ -4,7 +4,7 @@
 #include "core/diagnose/path_record.h"
 #include "core/session/pass_replay.h"
 
-namespace pl {
+namespace pl::diagnose {
 
 /// View of the field of these passes; empty for methods without one. Valid as long as `passes`.
 AnyFieldView field_of(PassReplay& passes);
@@ -14,4 +14,4 @@ AnyFieldView field_of(PassReplay& passes);
 /// does not learn, else for pass PassReplay::samples after Session::advance_to_path().
 PathRecord record_path(const PassReplay& passes, const AnyFieldView& field, std::uint32_t pixel, std::uint32_t pass);
 
-}  // namespace pl
+}  // namespace pl::diagnose

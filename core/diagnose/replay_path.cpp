@@ -5,7 +5,7 @@
 #include "core/kernel/integrator/sampled_lights.h"
 #include "core/kernel/integrator/trace_path.h"
 
-namespace pl {
+namespace pl::diagnose {
 namespace {
 
 /// Samples directions as every guided method does; counts clamped training samples instead of adding them to the field.
@@ -48,4 +48,4 @@ PathDefects replay_path(const PassReplay& passes, const AnyFieldView& field, std
     return defects;
 }
 
-}  // namespace pl
+}  // namespace pl::diagnose

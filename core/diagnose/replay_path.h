@@ -6,7 +6,7 @@
 
 #include "core/session/pass_replay.h"
 
-namespace pl {
+namespace pl::diagnose {
 
 /// Defects on one path.
 struct PathDefects {
@@ -20,4 +20,4 @@ struct PathDefects {
 PathDefects replay_path(const PassReplay& passes, const AnyFieldView& field, std::uint32_t pixel,
                         std::uint32_t sample);
 
-}  // namespace pl
+}  // namespace pl::diagnose

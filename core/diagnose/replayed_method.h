@@ -7,7 +7,7 @@
 #include "core/session/pass_replay.h"
 #include "core/session/path_settings.h"
 
-namespace pl {
+namespace pl::diagnose {
 
 /// Whether the path of a sample was sampled by the field.
 inline bool is_guided_path(const PassReplay& passes, std::uint32_t sample) {
@@ -32,4 +32,4 @@ auto with_replayed_method(const PassReplay& passes, const AnyFieldView& field, s
     });
 }
 
-}  // namespace pl
+}  // namespace pl::diagnose

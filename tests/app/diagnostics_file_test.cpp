@@ -72,7 +72,7 @@ TEST_CASE("diagnostics: a PNG is dark but for the marks, and tells what they are
     std::uint64_t marked = 0;
     for (std::size_t i = 0; i < image.rgb.size(); i += 3)
         marked += pack_pixel(image.rgb[i], image.rgb[i + 1], image.rgb[i + 2]) ==
-                  info_of(DiagnosticKind::InvalidSample).color;
+                  info_of(diagnose::DiagnosticKind::InvalidSample).color;
     CHECK(marked >= stats["diagnostics"]["found"]["invalid_samples"]["pixels"]);
     CHECK(std::any_of(metadata.begin(), metadata.end(), [](const auto& entry) {
         return entry.first == "diagnostics" && entry.second.find(" invalid in ") != std::string::npos;

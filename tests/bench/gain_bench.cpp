@@ -38,13 +38,13 @@ Reference reference_of(const GainSetup& setup, const std::string& name,
     settings.height = setup.height();
     settings.camera = scene->camera;
     settings.next_event = true;
-    const ReferenceStore store(setup.words.at("references"));
+    const bench::ReferenceStore store(setup.words.at("references"));
     const auto spp = static_cast<std::uint32_t>(setup["reference"]);
     if (auto found = store.find(content_of(*scene, settings));
         found && found->halves[0].spp >= spp && found->halves[1].spp >= spp)
         return *std::move(found);
     Session session(make_cpu_backend({.threads = setup.integer("threads")}), scene, settings);
-    return make_reference(session, {.scene = name, .spp = spp, .seconds = {}}, store).reference;
+    return bench::make_reference(session, {.scene = name, .spp = spp, .seconds = {}}, store).reference;
 }
 
 GainResult measure(const GainSetup& setup, const RunSetting& setting) {

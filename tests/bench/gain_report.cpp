@@ -43,11 +43,11 @@ bool has_values(const Intervals& values) {
 Json intervals_json(const Intervals& values) {
     Json json = Json::object();
     for (std::size_t error = 0; error < values.size(); ++error)
-        json[kErrorNames[error]] = interval_json(values[error]);
+        json[kErrorNames[error]] = bench::interval_json(values[error]);
     return json;
 }
 
-Json run_json(const GainRun& run) {
+Json bench::run_json(const GainRun& run) {
     Json points = Json::array();
     for (const Checkpoint& point : run.points) {
         Json json{{"samples", point.samples}, {"seconds", point.seconds}};
@@ -64,15 +64,15 @@ Json method_json(const GainResult& result, const std::string& method, const std:
         Json row{{"length", figures.length}};
         if (method == kBase) {
             row["errors"] = intervals_json(figures.base_errors);
-            row["seconds"] = interval_json(figures.base_seconds);
+            row["seconds"] = bench::interval_json(figures.base_seconds);
         } else {
             row["equal_samples"] = intervals_json(figures.equal_samples);
             row["equal_time"] = intervals_json(figures.equal_time);
-            row["slowdown"] = interval_json(figures.slowdown);
+            row["slowdown"] = bench::interval_json(figures.slowdown);
         }
         json["lengths"].push_back(row);
     }
-    for (const GainRun& run : runs) json["runs"].push_back(run_json(run));
+    for (const GainRun& run : runs) json["runs"].push_back(bench::run_json(run));
     return json;
 }
 

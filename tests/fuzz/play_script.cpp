@@ -23,6 +23,7 @@
 #include "ui/window/mouse_tracker.h"
 
 namespace pl::test {
+using namespace pl::ui;
 namespace {
 
 using Kind = ScriptCommand::Kind;

@@ -7,6 +7,7 @@
 #include "ui/script/script.h"
 
 namespace pl::test {
+using namespace pl::ui;
 
 /// Plays the commands, pauses between them shortened, so that any script takes milliseconds. Conditions are looked at and not
 /// waited for: fake back ends meet few of them. Throws what the model throws, and std::logic_error if the model then holds

@@ -218,11 +218,11 @@ TEST_CASE("Paths guided by any representation are traced again with all vertices
         session.apply(EditRestart{});
         render_passes(session, 1);
         PassReplay passes = session.pass_replay(slot_of(session));
-        const AnyFieldView field = field_of(passes);
+        const AnyFieldView field = diagnose::field_of(passes);
         const std::vector<Vec3f> pixels = session.snapshot(slot_of(session)).pixels;
         int guided = 0;
         for (std::uint32_t pixel = 0; pixel < 200; ++pixel) {
-            const PathRecord record = record_path(passes, field, pixel, 0);
+            const diagnose::PathRecord record = diagnose::record_path(passes, field, pixel, 0);
             guided += record.is_guided ? 1 : 0;
             CHECK(glm::length(record.radiance - pixels[pixel]) <= 1e-5f * glm::length(pixels[pixel]));
         }

@@ -6,6 +6,7 @@
 #include "tests/ui/model_bench.h"
 
 namespace pl::test {
+using namespace pl::ui;
 
 struct FileBench : ModelBench {
     std::shared_ptr<FakeControl> control = devices.cpu;
@@ -19,7 +20,8 @@ struct FileBench : ModelBench {
         control->pass_microseconds = 0;
         options.backends = {{"cpu", "", ""}, {"cuda", "", ""}};
         options.load_scene = [](const SceneRequest& request) -> std::shared_ptr<const SceneDescription> {
-            if (request.name == "broken.obj") throw Error(ErrorKind::Input, "broken.obj:7: expected a number, got 'x'");
+            if (request.name == "broken.obj")
+                throw Error(ErrorKind::Input, "broken.obj:7: expected a number, got 'x'");
             auto scene = std::make_shared<SceneDescription>(*small_scene());
             scene->camera.eye.y = 1.5f;
             return scene;

@@ -5,6 +5,7 @@
 #include "ui/compare/compare_plan.h"
 
 namespace pl::test {
+using namespace pl::ui;
 
 inline constexpr Rect kView{10.0f, 20.0f, 400.0f, 200.0f};  // a picture of 4 x 2 fills it
 

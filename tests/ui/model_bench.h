@@ -7,6 +7,7 @@
 #include "ui/model/viewer_model.h"
 
 namespace pl::test {
+using namespace pl::ui;
 
 struct ModelBench {
     FakeDevices devices;

@@ -16,6 +16,7 @@
 #include "ui/window/offscreen.h"
 
 using namespace pl;
+using namespace pl::ui;
 using namespace pl::test;
 
 namespace {
@@ -126,13 +127,13 @@ TEST_CASE("Pictures: lobes of every volume of a field") {
 
 TEST_CASE("Pictures: two paths as lines, the brighter one wide and numbered") {
     const GrayFrame gray;
-    PixelPaths paths;
+    diagnose::PixelPaths paths;
     for (const float light : {0.1f, 2.0f}) {
-        PathRecord path;
+        diagnose::PathRecord path;
         path.radiance = Vec3f(light);
         path.eye = gray.frame.snapshot.camera.eye;
         for (const Vec2f point : {Vec2f{0.5f, 0.6f}, Vec2f{0.2f + 0.2f * light, 0.3f}, Vec2f{0.8f, 0.4f}}) {
-            VertexRecord vertex;
+            diagnose::VertexRecord vertex;
             vertex.origin = path.vertices.empty() ? path.eye : path.vertices.back().position;
             vertex.position = gray.seen_at(point, 0.5f);
             path.vertices.push_back(vertex);

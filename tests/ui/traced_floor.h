@@ -4,6 +4,7 @@
 #include "ui/model/viewer_model.h"
 
 namespace pl::test {
+using namespace pl::ui;
 
 /// On the floor of the small scene, in [0, 1] of the picture.
 inline constexpr Vec2f kFloor{0.5f, 0.65f};

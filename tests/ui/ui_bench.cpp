@@ -26,6 +26,7 @@
 namespace {
 
 using namespace pl;
+using namespace pl::ui;
 
 constexpr int kWidth = 1280;
 constexpr int kHeight = 720;

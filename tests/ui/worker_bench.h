@@ -7,6 +7,7 @@
 #include "ui/worker/render_worker.h"
 
 namespace pl::test {
+using namespace pl::ui;
 
 inline constexpr int kSize = 64;
 

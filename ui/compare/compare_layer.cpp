@@ -5,7 +5,7 @@
 #include "core/base/error.h"
 #include "ui/draw/picture.h"
 
-namespace pl {
+namespace pl::ui {
 
 const HalfCodes& CompareLayer::codes(const DisplaySettings& display) {
     if (!codes_ || !(codes_->display() == display)) codes_.emplace(display);
@@ -72,4 +72,4 @@ void CompareLayer::magnify(const ComparePlan& plan, const Magnifier& magnifier) 
     }
 }
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -9,7 +9,7 @@
 #include "ui/draw/magnifier.h"
 #include "ui/draw/stream_texture.h"
 
-namespace pl {
+namespace pl::ui {
 
 class CompareLayer {
 public:
@@ -36,4 +36,4 @@ private:
     std::optional<HalfCodes> codes_;
 };
 
-}  // namespace pl
+}  // namespace pl::ui

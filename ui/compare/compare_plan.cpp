@@ -8,7 +8,7 @@
 #include "ui/compare/half_image.h"
 #include "ui/draw/method_keys.h"
 
-namespace pl {
+namespace pl::ui {
 namespace {
 
 using What = TileContent::What;
@@ -158,4 +158,4 @@ std::optional<Vec3f> value_of(const TileContent& content, PixelPosition pixel) {
     return content.what == What::Difference ? glm::abs(value - other) : Vec3f{pixel_error(value, other)};
 }
 
-}  // namespace pl
+}  // namespace pl::ui

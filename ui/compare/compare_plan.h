@@ -9,7 +9,7 @@
 #include "ui/compare/sides.h"
 #include "ui/draw/picture_zoom.h"
 
-namespace pl {
+namespace pl::ui {
 
 /// The source of a tile's pixels.
 struct TileContent {
@@ -51,4 +51,4 @@ std::optional<Vec3f> value_of(const TileContent& content, PixelPosition pixel);
 /// Of a frame; empty if it has no values.
 std::optional<Vec3f> value_of(const PublishedFrame& frame, PixelPosition pixel);
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -4,7 +4,7 @@
 #include <array>
 #include <cstdint>
 
-namespace pl {
+namespace pl::ui {
 
 enum class CompareMode { Off, Split, Flip, SideBySide, Difference, ErrorMap };
 inline constexpr int kCompareModeCount = 6;
@@ -37,4 +37,4 @@ struct CompareState {
     bool shows_second = false;  ///< of CompareMode::Flip
 };
 
-}  // namespace pl
+}  // namespace pl::ui

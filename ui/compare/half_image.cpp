@@ -8,7 +8,7 @@
 #include "core/kernel/film/frame_pixel.h"
 #include "core/measure/metrics.h"
 
-namespace pl {
+namespace pl::ui {
 namespace {
 
 /// Calls `color` with the index of every pixel, and writes its result.
@@ -71,4 +71,4 @@ void write_error_map(const HalfPicture& picture, const HalfPicture& reference, s
 
 std::string error_map_legend() { return fmt::format("relative error {:g} to {:g}", kLowError, kHighError); }
 
-}  // namespace pl
+}  // namespace pl::ui

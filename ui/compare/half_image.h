@@ -9,7 +9,7 @@
 #include "core/measure/live_runs.h"
 #include "core/session/settings.h"
 
-namespace pl {
+namespace pl::ui {
 
 /// The 8-bit code of every half float under a display setting: a picture is converted by table lookup.
 class HalfCodes {
@@ -47,4 +47,4 @@ void write_error_map(const HalfPicture& picture, const HalfPicture& reference, s
 /// The legend of the colors.
 std::string error_map_legend();
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -1,6 +1,6 @@
 #include "ui/compare/pointed_pixel.h"
 
-namespace pl {
+namespace pl::ui {
 namespace {
 
 /// A picture in the window, with its number of pixels.
@@ -42,4 +42,4 @@ std::optional<Magnifier> magnifier_at(const ComparePlan& plan, const PublishedFr
     return make_magnifier(picture->image, pointer, picture->width, picture->height, view, em);
 }
 
-}  // namespace pl
+}  // namespace pl::ui

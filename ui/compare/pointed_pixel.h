@@ -4,7 +4,7 @@
 #include "ui/compare/compare_plan.h"
 #include "ui/draw/magnifier.h"
 
-namespace pl {
+namespace pl::ui {
 
 /// Empty if the pointer is over no picture. `image` is the rectangle of the frame's picture.
 std::optional<PointedPixel> pointed_pixel(const ComparePlan& plan, const PublishedFrame& frame, const Rect& image,
@@ -14,4 +14,4 @@ std::optional<PointedPixel> pointed_pixel(const ComparePlan& plan, const Publish
 std::optional<Magnifier> magnifier_at(const ComparePlan& plan, const PublishedFrame& frame, const Rect& image,
                                       Vec2f pointer, const Rect& view, float em);
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-namespace pl {
+namespace pl::ui {
 namespace {
 
 constexpr double kEqualEnough = 1.1;  ///< largest ratio of equal costs: points are a fifth apart
@@ -137,4 +137,4 @@ CompareSides resolve_sides(const CompareInput& input, const CompareState& state)
     return sides;
 }
 
-}  // namespace pl
+}  // namespace pl::ui

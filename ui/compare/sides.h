@@ -9,7 +9,7 @@
 #include "ui/plot/cursor_table.h"
 #include "ui/worker/published_frame.h"
 
-namespace pl {
+namespace pl::ui {
 
 /// A converged picture for comparison.
 struct ReferencePicture {
@@ -62,4 +62,4 @@ CompareSide side_in_turns(const CompareInput& input, MethodId method, const Fram
 /// the reference. A side that does not exist is empty.
 CompareSides resolve_sides(const CompareInput& input, const CompareState& state);
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -6,7 +6,7 @@
 
 #include "core/kernel/film/heat_color.h"
 
-namespace pl {
+namespace pl::ui {
 
 std::vector<float> entropy_shares(const FieldKeyFrame& frame) {
     std::vector<float> shares;
@@ -34,4 +34,4 @@ CellImage tint_cells(const CellImage& cells, std::span<const std::uint32_t> colo
     return tinted;
 }
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -7,7 +7,7 @@
 #include "ui/worker/field_history.h"
 #include "ui/worker/published_frame.h"
 
-namespace pl {
+namespace pl::ui {
 
 /// Entropy of the sampling probabilities of each volume, as a share of that of a uniform table: 1 is cosine sampling.
 std::vector<float> entropy_shares(const FieldKeyFrame& frame);
@@ -16,4 +16,4 @@ std::vector<float> entropy_shares(const FieldKeyFrame& frame);
 /// cell_color() gives them.
 CellImage tint_cells(const CellImage& cells, std::span<const std::uint32_t> colors, std::span<const float> positions);
 
-}  // namespace pl
+}  // namespace pl::ui

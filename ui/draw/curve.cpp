@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace pl {
+namespace pl::ui {
 
 Vec2f PassScale::place(const Rect& rect, double passes, double value) const {
     const double x = std::log(std::max(passes, 1.0) / first) / std::log(last / first);
@@ -24,4 +24,4 @@ PassScale scale_of(std::span<const PassPoint> points, double least_top) {
     return scale;
 }
 
-}  // namespace pl
+}  // namespace pl::ui

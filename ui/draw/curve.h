@@ -7,7 +7,7 @@
 
 #include "ui/draw/draw_list.h"
 
-namespace pl {
+namespace pl::ui {
 
 struct PassPoint {
     double passes = 1.0;  ///< at least 1
@@ -28,4 +28,4 @@ struct PassScale {
 /// The scale that shows all points, of several curves one after the other. `least_top`: a value that is shown in any case.
 PassScale scale_of(std::span<const PassPoint> points, double least_top);
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -7,7 +7,7 @@
 #include "core/kernel/base/warp.h"
 #include "core/kernel/film/heat_color.h"
 
-namespace pl {
+namespace pl::ui {
 namespace {
 
 /// Corners and edge midpoints of the unit square, counter-clockwise.
@@ -81,4 +81,4 @@ Vec3f direction_of(const VolumeInspection& volume, Vec2f disk) {
     return make_frame(volume.normal).to_world(lift_to_hemisphere(disk));
 }
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -12,7 +12,7 @@
 #include "core/session/snapshot.h"
 #include "ui/draw/draw_list.h"
 
-namespace pl {
+namespace pl::ui {
 
 /// Center and border of one cell on the unit disk; borders of neighbors share their points exactly.
 inline constexpr int kCellBorderPoints = 8;
@@ -48,4 +48,4 @@ TableSummary summarize(const VolumeInspection& volume);
 /// Direction in scene space above a point of the cells' disk.
 Vec3f direction_of(const VolumeInspection& volume, Vec2f disk);
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -4,7 +4,7 @@
 
 #include "core/scene/pack_scene.h"
 
-namespace pl {
+namespace pl::ui {
 namespace {
 
 /// Liang-Barsky: the part of a line inside a rectangle.
@@ -65,4 +65,4 @@ std::optional<Projection::Point> Projection::operator()(Vec3f position) const {
     return Point{{image_.x + found.film.x, image_.y + found.film.y}, found.depth};
 }
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -9,7 +9,7 @@
 #include "core/kernel/scene/camera.h"
 #include "core/scene/description.h"
 
-namespace pl {
+namespace pl::ui {
 
 /// Part of the window, in pixels from its top left corner.
 struct Rect {
@@ -53,4 +53,4 @@ private:
     float near_;
 };
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -2,7 +2,7 @@
 
 #include "ui/draw/imgui_compat.h"
 
-namespace pl {
+namespace pl::ui {
 
 void create_gui_context(GuiMemory& memory) {
     IMGUI_CHECKVERSION();
@@ -15,4 +15,4 @@ void create_gui_context(GuiMemory& memory) {
 
 GuiMemory& gui_memory() { return *static_cast<GuiMemory*>(ImGui::GetIO().UserData); }
 
-}  // namespace pl
+}  // namespace pl::ui

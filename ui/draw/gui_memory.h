@@ -7,7 +7,7 @@
 
 #include "ui/draw/layout.h"
 
-namespace pl {
+namespace pl::ui {
 
 class PictureTextures;
 
@@ -25,4 +25,4 @@ void create_gui_context(GuiMemory& memory);
 /// Of the present ImGui context.
 GuiMemory& gui_memory();
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -14,7 +14,7 @@
 struct SDL_Renderer;
 struct SDL_Texture;
 
-namespace pl {
+namespace pl::ui {
 
 /// From this version on, ImGui takes pointer and buttons from events; before, its platform code polls them.
 inline constexpr bool kImGuiHasEventQueue = IMGUI_VERSION_NUM >= 18700;
@@ -33,4 +33,4 @@ inline ImTextureID to_texture_id(SDL_Texture* texture) {
 }
 inline SDL_Texture* from_texture_id(ImTextureID id) { return (SDL_Texture*)(std::intptr_t)id; }
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -7,7 +7,7 @@
 #include "core/base/error.h"
 #include "ui/draw/imgui_compat.h"
 
-namespace pl {
+namespace pl::ui {
 namespace {
 
 /// The clip rectangle of a command; empty if it is invisible.
@@ -64,4 +64,4 @@ void ImGuiDraw::draw(const ImDrawData& data) {
     SDL_RenderSetClipRect(renderer_, nullptr);
 }
 
-}  // namespace pl
+}  // namespace pl::ui

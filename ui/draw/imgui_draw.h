@@ -6,7 +6,7 @@ struct ImDrawData;
 struct SDL_Renderer;
 struct SDL_Texture;
 
-namespace pl {
+namespace pl::ui {
 
 class ImGuiDraw {
 public:
@@ -24,4 +24,4 @@ private:
     SDL_Texture* fonts_ = nullptr;
 };
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace pl {
+namespace pl::ui {
 namespace {
 
 // In multiples of the font's height. Panels shrink for the picture as far as their text allows.
@@ -155,4 +155,4 @@ ImageSize fit_image(const Rect& view, int width, int height) {
     return {static_cast<int>(w), std::max(static_cast<int>(std::lround(w * shape)), 1)};
 }
 
-}  // namespace pl
+}  // namespace pl::ui

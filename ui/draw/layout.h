@@ -3,7 +3,7 @@
 
 #include "ui/draw/draw_list.h"
 
-namespace pl {
+namespace pl::ui {
 
 /// Panels that are open, and their sizes as the user chose them; a size of 0 is automatic.
 struct PanelChoice {
@@ -59,4 +59,4 @@ struct ImageSize {
 };
 ImageSize fit_image(const Rect& view, int width, int height);
 
-}  // namespace pl
+}  // namespace pl::ui

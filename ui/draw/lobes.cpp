@@ -10,7 +10,7 @@
 #include "core/kernel/guiding/direction_cells.h"
 #include "ui/draw/direction_disc.h"
 
-namespace pl {
+namespace pl::ui {
 namespace {
 
 constexpr float kClearAlpha = 0.22f;   ///< of the half of a dome towards the camera, relative to the other
@@ -223,4 +223,4 @@ ScreenMesh flower_mesh(const FlowerField& field, const SceneView& scene, const P
     return mesh;
 }
 
-}  // namespace pl
+}  // namespace pl::ui

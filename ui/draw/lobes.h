@@ -9,7 +9,7 @@
 #include "core/kernel/scene/scene_view.h"
 #include "ui/draw/draw_list.h"
 
-namespace pl {
+namespace pl::ui {
 
 enum class LobeShape {
     Lobe,  ///< a surface at a distance from the volume in proportion to the value
@@ -83,4 +83,4 @@ inline constexpr std::size_t kMostFlowers = 2000;
 ScreenMesh flower_mesh(const FlowerField& field, const SceneView& scene, const Projection& projection,
                        FlowerCounts& counts);
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace pl {
+namespace pl::ui {
 
 Magnifier make_magnifier(const Rect& image, Vec2f pointer, int width, int height, const Rect& view, float em) {
     // Twice the picture's, as far as the box stays handy.
@@ -28,4 +28,4 @@ Magnifier make_magnifier(const Rect& image, Vec2f pointer, int width, int height
     return magnifier;
 }
 
-}  // namespace pl
+}  // namespace pl::ui

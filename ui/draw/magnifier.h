@@ -3,7 +3,7 @@
 
 #include "ui/draw/picture_zoom.h"
 
-namespace pl {
+namespace pl::ui {
 
 struct Magnifier {
     static constexpr int kPixels = 15;  ///< of the picture across the box, odd
@@ -19,4 +19,4 @@ struct Magnifier {
 /// inside `view`. `em` is the font size in pixels.
 Magnifier make_magnifier(const Rect& image, Vec2f pointer, int width, int height, const Rect& view, float em);
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -1,6 +1,6 @@
 #include "ui/draw/method_keys.h"
 
-namespace pl {
+namespace pl::ui {
 
 std::string method_keys(bool MethodInfo::*flag) {
     std::string keys;
@@ -9,4 +9,4 @@ std::string method_keys(bool MethodInfo::*flag) {
     return keys;
 }
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -5,9 +5,9 @@
 
 #include "core/session/methods.h"
 
-namespace pl {
+namespace pl::ui {
 
 /// "1, 2, 3"; with a flag only the keys of methods for which it is set.
 std::string method_keys(bool MethodInfo::*flag = nullptr);
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -7,7 +7,7 @@
 #include "core/kernel/geometry/intersector.h"
 #include "ui/draw/direction_disc.h"
 
-namespace pl {
+namespace pl::ui {
 namespace {
 
 constexpr std::uint32_t kDark = 0x70a69c96u;  ///< of paths without light: faint gray
@@ -28,7 +28,7 @@ std::uint32_t faded(std::uint32_t color, float share) {
 }
 
 /// The end of a vertex's incoming ray.
-Vec3f end_of(const VertexRecord& vertex, float escape_length) {
+Vec3f end_of(const diagnose::VertexRecord& vertex, float escape_length) {
     return vertex.is_escape ? vertex.origin - escape_length * vertex.wo : vertex.position;
 }
 
@@ -53,11 +53,11 @@ std::uint32_t path_color(float light, const ValueRange& range) {
     return light > 0.0f ? map_color(range.position(light), kAlpha) : kDark;
 }
 
-void add_path(std::vector<PathPiece>& pieces, const PathRecord& path, const PathLineStyle& style) {
-    const float light = path_light(path);
+void add_path(std::vector<PathPiece>& pieces, const diagnose::PathRecord& path, const PathLineStyle& style) {
+    const float light = diagnose::path_light(path);
     const std::uint32_t color = path_color(light, style.range);
     const float width = style.is_selected ? kSelectedWidth : light > 0.0f ? kWidth : kDarkWidth;
-    for (const VertexRecord& vertex : path.vertices) {
+    for (const diagnose::VertexRecord& vertex : path.vertices) {
         PathPiece piece{.from = vertex.origin,
                         .to = end_of(vertex, style.escape_length),
                         .color = color,
@@ -123,4 +123,4 @@ std::vector<Stroke> strokes_of(std::span<const PathPiece> pieces, const Projecti
     return strokes;
 }
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -10,7 +10,7 @@
 #include "core/plot/value_scale.h"
 #include "ui/draw/draw_list.h"
 
-namespace pl {
+namespace pl::ui {
 
 /// A straight piece of a path in scene space. Colors are 0xAABBGGRR.
 struct PathPiece {
@@ -34,7 +34,7 @@ struct PathLineStyle {
 std::uint32_t path_color(float light, const ValueRange& range);
 
 /// The path from the camera on, a line for each ray; shadow rays thinner, to visible lights only.
-void add_path(std::vector<PathPiece>& pieces, const PathRecord& path, const PathLineStyle& style);
+void add_path(std::vector<PathPiece>& pieces, const diagnose::PathRecord& path, const PathLineStyle& style);
 
 /// Rays towards the camera that one call of split_by_visibility() traces at most, but one for each piece.
 inline constexpr std::size_t kMostVisibilityRays = 4096;
@@ -54,4 +54,4 @@ struct Stroke {
 /// of widths and dashes.
 std::vector<Stroke> strokes_of(std::span<const PathPiece> pieces, const Projection& projection, float scale);
 
-}  // namespace pl
+}  // namespace pl::ui

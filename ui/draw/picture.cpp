@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace pl {
+namespace pl::ui {
 namespace {
 
 constexpr std::uint32_t kOpaque = 0xff000000u;
@@ -65,4 +65,4 @@ void write_picture(const DisplayFrame& frame, const CellOverlay& overlay, std::u
     if (overlay.outlined) outline_cell(*cells, *overlay.outlined, out, pitch);
 }
 
-}  // namespace pl
+}  // namespace pl::ui

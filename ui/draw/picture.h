@@ -7,7 +7,7 @@
 
 #include "ui/worker/published_frame.h"
 
-namespace pl {
+namespace pl::ui {
 
 /// Overlay of the radiance volumes' cells.
 struct CellOverlay {
@@ -20,4 +20,4 @@ struct CellOverlay {
 /// Writes ARGB8888 rows, `pitch` pixels apart. May wait for the frame, and throws as DisplayFrame::pixels() does.
 void write_picture(const DisplayFrame& frame, const CellOverlay& overlay, std::uint32_t* out, std::size_t pitch);
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -2,7 +2,7 @@
 
 #include <SDL.h>
 
-namespace pl {
+namespace pl::ui {
 
 PictureTextures::~PictureTextures() {
     for (const auto& [picture, texture] : textures_)
@@ -21,4 +21,4 @@ SDL_Texture* PictureTextures::of(const std::shared_ptr<const ByteImage>& picture
     return entry->second = texture;
 }
 
-}  // namespace pl
+}  // namespace pl::ui

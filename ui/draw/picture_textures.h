@@ -7,7 +7,7 @@
 #include "core/io/image.h"
 #include "ui/draw/imgui_compat.h"
 
-namespace pl {
+namespace pl::ui {
 
 class PictureTextures {
 public:
@@ -24,4 +24,4 @@ private:
     std::map<std::shared_ptr<const ByteImage>, SDL_Texture*> textures_;
 };
 
-}  // namespace pl
+}  // namespace pl::ui

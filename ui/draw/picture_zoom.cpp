@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-namespace pl {
+namespace pl::ui {
 namespace {
 
 constexpr std::array kScales{1.0f,  2.0f,  3.0f,  4.0f,  6.0f,  8.0f,  12.0f,
@@ -116,4 +116,4 @@ void PictureZoom::pan(Vec2f pixels, int width, int height) {
     center_ = glm::clamp(center_ - pixels / size, 0.0f, 1.0f);
 }
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -6,7 +6,7 @@
 
 #include "ui/draw/layout.h"
 
-namespace pl {
+namespace pl::ui {
 
 /// The common part of two rectangles; empty rectangles have a width or height of 0.
 Rect common_part(const Rect& a, const Rect& b);
@@ -82,4 +82,4 @@ private:
     Vec2f center_{0.5f};  ///< point of the picture in the middle of the view
 };
 
-}  // namespace pl
+}  // namespace pl::ui

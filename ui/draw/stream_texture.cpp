@@ -8,7 +8,7 @@
 #include "core/base/error.h"
 #include "ui/draw/picture_zoom.h"
 
-namespace pl {
+namespace pl::ui {
 namespace {
 
 SDL_Rect to_sdl(const Rect& rect) {
@@ -68,4 +68,4 @@ void StreamTexture::draw_slices(const Rect& target, const Rect& clip) {
     }
 }
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -9,7 +9,7 @@
 struct SDL_Renderer;
 struct SDL_Texture;
 
-namespace pl {
+namespace pl::ui {
 
 /// The look of a texture that is drawn larger than it is.
 enum class Scaling {
@@ -40,4 +40,4 @@ private:
     int height_ = 0;
 };
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace pl {
+namespace pl::ui {
 namespace {
 
 ImVec4 rgb(int hex) {
@@ -93,4 +93,4 @@ void load_fonts(const std::filesystem::path& font, float ui_scale) {
     atlas.AddFontDefault(&config);
 }
 
-}  // namespace pl
+}  // namespace pl::ui

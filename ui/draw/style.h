@@ -6,7 +6,7 @@
 
 #include "ui/draw/imgui_compat.h"
 
-namespace pl {
+namespace pl::ui {
 
 namespace colors {
 inline constexpr ImU32 kText = IM_COL32(228, 230, 234, 255);
@@ -36,4 +36,4 @@ inline ImU32 to_imgui_color(std::uint32_t argb) {
 
 inline ImVec4 to_vec4(ImU32 color) { return ImGui::ColorConvertU32ToFloat4(color); }
 
-}  // namespace pl
+}  // namespace pl::ui

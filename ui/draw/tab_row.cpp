@@ -3,7 +3,7 @@
 #include "ui/draw/style.h"
 #include "ui/draw/widgets.h"
 
-namespace pl {
+namespace pl::ui {
 namespace {
 
 constexpr float kTabPaddingEm = 0.22f;  ///< beside a tab's title: all of them in one row of the standard width
@@ -40,4 +40,4 @@ void TabRow::end() {
     ImGui::Separator();
 }
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -3,7 +3,7 @@
 
 #include "ui/draw/imgui_compat.h"
 
-namespace pl {
+namespace pl::ui {
 
 /// Tabs in as many rows as their whole titles need. The one in front is remembered by the window that they are in; where it is not
 /// added any more, the first is.
@@ -24,4 +24,4 @@ private:
     bool is_found_ = false;
 };
 
-}  // namespace pl
+}  // namespace pl::ui

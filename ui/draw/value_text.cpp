@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-namespace pl {
+namespace pl::ui {
 
 std::string short_number(double value) {
     constexpr const char* kUnits[] = {"", " k", " M", " G", " T"};
@@ -34,4 +34,4 @@ std::string short_seconds(double seconds) {
     return fmt::format("{:.0f} s", seconds);
 }
 
-}  // namespace pl
+}  // namespace pl::ui

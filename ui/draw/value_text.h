@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace pl {
+namespace pl::ui {
 
 /// "12.3 M": three digits and a power of a thousand.
 std::string short_number(double value);
@@ -12,4 +12,4 @@ std::string short_value(double value);
 /// "1.25 s", "85 ms".
 std::string short_seconds(double seconds);
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -9,7 +9,7 @@
 
 #include "ui/draw/gui_memory.h"
 
-namespace pl {
+namespace pl::ui {
 namespace {
 
 constexpr float kLabelEm = 6.4f;
@@ -281,4 +281,4 @@ void text_line(const char* text, ImU32 color) {
 
 void faint_text(const char* text) { text_line(text, colors::kFaint); }
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -7,7 +7,7 @@
 #include "ui/draw/draw_list.h"
 #include "ui/draw/style.h"
 
-namespace pl {
+namespace pl::ui {
 
 /// Starts a window that fills `place` and cannot be moved. End it with ImGui::End().
 void begin_fixed_window(const char* name, const Rect& place, int extra_flags = 0);
@@ -75,4 +75,4 @@ void text_line(const char* text, ImU32 color);
 /// The same in the faint color.
 void faint_text(const char* text);
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-namespace pl {
+namespace pl::ui {
 
 /// "light samples on", "light samples off".
 const char* light_samples_text(bool on);
@@ -12,4 +12,4 @@ const char* light_samples_text(bool on);
 /// "1 pass", "3 passes".
 std::string passes_text(std::uint64_t count);
 
-}  // namespace pl
+}  // namespace pl::ui

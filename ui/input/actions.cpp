@@ -7,7 +7,7 @@
 #include <SDL_keycode.h>
 #include <SDL_scancode.h>
 
-namespace pl {
+namespace pl::ui {
 namespace {
 
 using enum ActionId;
@@ -212,4 +212,4 @@ std::string key_table_markdown() {
     return text;
 }
 
-}  // namespace pl
+}  // namespace pl::ui

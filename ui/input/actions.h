@@ -10,7 +10,7 @@
 
 #include "core/session/methods.h"
 
-namespace pl {
+namespace pl::ui {
 
 enum class ActionId {
     MoveForward,
@@ -140,4 +140,4 @@ bool matches(const Action& action, const KeyStroke& stroke);
 /// The table in Markdown, for the documents.
 std::string key_table_markdown();
 
-}  // namespace pl
+}  // namespace pl::ui

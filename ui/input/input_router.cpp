@@ -4,7 +4,7 @@
 
 #include "ui/input/perform_action.h"
 
-namespace pl {
+namespace pl::ui {
 namespace {
 
 constexpr float kFastFactor = 4.0f;
@@ -164,4 +164,4 @@ MoveKeys InputRouter::move_keys() const {
     return keys;
 }
 
-}  // namespace pl
+}  // namespace pl::ui

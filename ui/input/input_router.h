@@ -10,7 +10,7 @@
 #include "ui/input/pointer_gesture.h"
 #include "ui/model/viewer_model.h"
 
-namespace pl {
+namespace pl::ui {
 
 class InputRouter {
 public:
@@ -54,4 +54,4 @@ private:
     bool skip_next_motion_ = false;  ///< the first one after the focus returned is a jump
 };
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -4,7 +4,7 @@
 
 #include "ui/draw/imgui_compat.h"
 
-namespace pl {
+namespace pl::ui {
 namespace {
 
 constexpr float kOpacityStep = 0.1f;
@@ -183,4 +183,4 @@ bool perform(ViewerModel& model, const Action& action) {
 
 bool perform(ViewerModel& model, ActionId id) { return perform(model, info_of(id)); }
 
-}  // namespace pl
+}  // namespace pl::ui

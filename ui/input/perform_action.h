@@ -4,7 +4,7 @@
 #include "ui/input/actions.h"
 #include "ui/model/viewer_model.h"
 
-namespace pl {
+namespace pl::ui {
 
 /// False for held keys, which InputRouter adds up.
 bool perform(ViewerModel& model, const Action& action);
@@ -12,4 +12,4 @@ bool perform(ViewerModel& model, const Action& action);
 /// An action without a parameter.
 bool perform(ViewerModel& model, ActionId id);
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -7,7 +7,7 @@
 
 #include "core/kernel/base/math.h"
 
-namespace pl {
+namespace pl::ui {
 
 enum class PointerButton { Left, Right, Middle };
 
@@ -79,4 +79,4 @@ private:
     bool is_double_ = false;
 };
 
-}  // namespace pl
+}  // namespace pl::ui

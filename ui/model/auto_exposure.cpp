@@ -4,7 +4,7 @@
 
 #include "core/session/shown_range.h"
 
-namespace pl {
+namespace pl::ui {
 namespace {
 
 constexpr float kNear = 0.5f;  ///< stops, from which the rest is gone at once
@@ -49,4 +49,4 @@ void AutoExposure::update() {
     set_to_ = display_.settings().exposure_ev;  // limited
 }
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -7,7 +7,7 @@
 #include "ui/model/luminance_histogram.h"
 #include "ui/model/render_link.h"
 
-namespace pl {
+namespace pl::ui {
 
 class AutoExposure {
 public:
@@ -41,4 +41,4 @@ private:
     std::uint64_t times_made_ = 0;
 };
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -12,7 +12,7 @@
 
 #include "ui/viewer.h"
 
-namespace pl {
+namespace pl::ui {
 
 template <class Value>
 class BackgroundJob {
@@ -78,4 +78,4 @@ private:
 /// Renders a reference. Null if it was stopped before both halves had samples; else its samples are stored.
 using ReferenceJob = BackgroundJob<std::shared_ptr<const StoredReference>>;
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -12,7 +12,7 @@
 #include "ui/model/file_names.h"
 #include "ui/model/thumbnail.h"
 
-namespace pl {
+namespace pl::ui {
 namespace {
 
 std::string hash_text(std::string_view text) {
@@ -181,4 +181,4 @@ std::optional<CameraPath> CameraBookmarks::path() const {
     return CameraPath(cameras());
 }
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -12,7 +12,7 @@
 #include "core/scene/camera_path.h"
 #include "ui/model/viewed_scene.h"
 
-namespace pl {
+namespace pl::ui {
 
 class CameraBookmarks {
 public:
@@ -68,4 +68,4 @@ private:
 /// DisplayFrame::pixels().
 ByteImage small_picture(const DisplayFrame& frame);
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -4,7 +4,7 @@
 
 #include <glm/gtc/quaternion.hpp>
 
-namespace pl {
+namespace pl::ui {
 namespace {
 
 constexpr float kSpeedPerNotch = 1.25f;
@@ -99,4 +99,4 @@ void CameraControls::change_speed(float notches) {
     speed_ = std::clamp(speed_ * std::pow(kSpeedPerNotch, notches), diagonal_ / 1000.0f, diagonal_ * 10.0f);
 }
 
-}  // namespace pl
+}  // namespace pl::ui

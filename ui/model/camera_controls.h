@@ -4,7 +4,7 @@
 #include "core/kernel/base/math.h"
 #include "core/scene/description.h"
 
-namespace pl {
+namespace pl::ui {
 
 /// Directions of the held keys; each in [-1, 1].
 struct MoveKeys {
@@ -55,4 +55,4 @@ private:
     float speed_;
 };
 
-}  // namespace pl
+}  // namespace pl::ui

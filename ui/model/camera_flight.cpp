@@ -9,7 +9,7 @@
 #include "core/io/frame_file.h"
 #include "ui/model/numbered_names.h"
 
-namespace pl {
+namespace pl::ui {
 namespace {
 
 constexpr const char* kTooFew = "a path needs at least two bookmarks: F8 makes one of the camera";
@@ -123,4 +123,4 @@ std::optional<SequenceWriter::Written> SequenceWriter::progress() const {
     return path_ ? std::optional(Written{written_, now_.frames}) : std::nullopt;
 }
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -7,7 +7,7 @@
 #include "ui/model/camera_bookmarks.h"
 #include "ui/model/picture_files.h"
 
-namespace pl {
+namespace pl::ui {
 
 /// Plays the path live.
 class CameraFlight {
@@ -90,4 +90,4 @@ private:
     std::uint64_t generation_ = 0;  ///< of its last camera
 };
 
-}  // namespace pl
+}  // namespace pl::ui

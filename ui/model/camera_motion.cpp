@@ -1,6 +1,6 @@
 #include "ui/model/camera_motion.h"
 
-namespace pl {
+namespace pl::ui {
 
 void CameraMotion::update(double seconds) {
     now_ = seconds;
@@ -86,4 +86,4 @@ void CameraMotion::open(const CameraDescription& home, float scene_diagonal, boo
     controls_.set_camera(camera);
 }
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -4,7 +4,7 @@
 #include "ui/model/camera_controls.h"
 #include "ui/worker/render_worker.h"
 
-namespace pl {
+namespace pl::ui {
 
 class CameraMotion {
 public:
@@ -56,4 +56,4 @@ private:
     std::uint64_t generation_ = 0;
 };
 
-}  // namespace pl
+}  // namespace pl::ui

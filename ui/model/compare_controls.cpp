@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-namespace pl {
+namespace pl::ui {
 
 void CompareControls::update() {
     const ReferencePicture* reference = references_.current();
@@ -85,4 +85,4 @@ void CompareControls::set_turns(bool on) {
                                                   info_of(methods[0]).label, info_of(methods[1]).label));
 }
 
-}  // namespace pl
+}  // namespace pl::ui

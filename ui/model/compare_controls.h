@@ -5,7 +5,7 @@
 #include "ui/model/references.h"
 #include "ui/plot/accuracy_model.h"
 
-namespace pl {
+namespace pl::ui {
 
 class CompareControls {
 public:
@@ -46,4 +46,4 @@ private:
     CompareState state_;
 };
 
-}  // namespace pl
+}  // namespace pl::ui

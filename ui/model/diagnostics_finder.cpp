@@ -1,14 +1,14 @@
 #include "ui/model/diagnostics_finder.h"
 
-namespace pl {
+namespace pl::ui {
 
 void DiagnosticsFinder::begin(DiagnosticsAnswer answer) {
     is_asked_ = false;
     if (!answer.source) return;
     generation_ = answer.generation;
     job_ = std::make_unique<BackgroundJob<Found>>([source = std::move(*answer.source)](const JobMonitor& monitor) {
-        return std::make_shared<const DiagnosticsMap>(
-            find_diagnostics(source, 0, monitor.stop, [&](double share) { monitor.progress(share, ""); }));
+        return std::make_shared<const diagnose::DiagnosticsMap>(
+            diagnose::find_diagnostics(source, 0, monitor.stop, [&](double share) { monitor.progress(share, ""); }));
     });
 }
 
@@ -37,4 +37,4 @@ DiagnosticsFinder::Found DiagnosticsFinder::map_of(const PublishedFrame& frame) 
     return fits ? map_ : nullptr;
 }
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -8,11 +8,11 @@
 #include "ui/model/background_job.h"
 #include "ui/worker/published_frame.h"
 
-namespace pl {
+namespace pl::ui {
 
 class DiagnosticsFinder {
 public:
-    using Found = std::shared_ptr<const DiagnosticsMap>;
+    using Found = std::shared_ptr<const diagnose::DiagnosticsMap>;
 
     /// The input of a search was requested from the render thread.
     void expect_answer() { is_asked_ = true; }
@@ -39,4 +39,4 @@ private:
     std::unique_ptr<BackgroundJob<Found>> job_;
 };
 
-}  // namespace pl
+}  // namespace pl::ui

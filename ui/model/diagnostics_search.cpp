@@ -1,8 +1,8 @@
 #include "ui/model/diagnostics_search.h"
 
-namespace pl {
+namespace pl::ui {
 
-std::shared_ptr<const DiagnosticsMap> DiagnosticsSearch::map() const {
+std::shared_ptr<const diagnose::DiagnosticsMap> DiagnosticsSearch::map() const {
     return link_.frame() ? finder_.map_of(*link_.frame()) : nullptr;
 }
 
@@ -41,4 +41,4 @@ void DiagnosticsSearch::update() {
         messages_.say(MessageLevel::Info, summary_of(*result->value));
 }
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -8,7 +8,7 @@
 #include "ui/model/messages.h"
 #include "ui/model/render_controls.h"
 
-namespace pl {
+namespace pl::ui {
 
 class DiagnosticsSearch {
 public:
@@ -22,7 +22,7 @@ public:
     void toggle();
 
     /// The pixels found in the present picture; null before a search.
-    std::shared_ptr<const DiagnosticsMap> map() const;
+    std::shared_ptr<const diagnose::DiagnosticsMap> map() const;
     bool is_searching() const { return finder_.is_searching(); }
     /// The finished share of the search; empty without one.
     std::optional<double> share() const;
@@ -36,4 +36,4 @@ private:
     DiagnosticsFinder finder_;
 };
 
-}  // namespace pl
+}  // namespace pl::ui

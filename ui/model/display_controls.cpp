@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace pl {
+namespace pl::ui {
 
 void DisplayControls::set_exposure(float ev) {
     settings_.exposure_ev = std::clamp(ev, -kMaxExposureEv, kMaxExposureEv);
@@ -36,4 +36,4 @@ void DisplayControls::set_preview(bool allowed) {
     worker_.set_preview_allowed(allowed);
 }
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -4,7 +4,7 @@
 
 #include "ui/worker/render_worker.h"
 
-namespace pl {
+namespace pl::ui {
 
 class DisplayControls {
 public:
@@ -42,4 +42,4 @@ private:
     bool preview_ = true;
 };
 
-}  // namespace pl
+}  // namespace pl::ui

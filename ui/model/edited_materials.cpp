@@ -7,7 +7,7 @@
 #include "core/base/error.h"
 #include "core/scene/validate.h"
 
-namespace pl {
+namespace pl::ui {
 
 void EditedMaterials::open(std::shared_ptr<const SceneDescription> file) {
     file_ = std::move(file);
@@ -73,4 +73,4 @@ bool may_move_volumes(const MaterialDescription& before, const MaterialDescripti
            (before.albedo == black) != (after.albedo == black);
 }
 
-}  // namespace pl
+}  // namespace pl::ui

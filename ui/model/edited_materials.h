@@ -7,7 +7,7 @@
 
 #include "core/scene/description.h"
 
-namespace pl {
+namespace pl::ui {
 
 class EditedMaterials {
 public:
@@ -47,4 +47,4 @@ std::string shown_name(const MaterialDescription& material, std::uint32_t index)
 /// same_placement().
 bool may_move_volumes(const MaterialDescription& before, const MaterialDescription& after);
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -4,7 +4,7 @@
 #include "core/scene/needed_effects.h"
 #include "core/session/session.h"
 
-namespace pl {
+namespace pl::ui {
 
 void EffectsModel::update(const PublishedFrame& frame) {
     Place place{.scene = frame.scene,
@@ -31,4 +31,4 @@ std::string EffectsModel::kernel_with(FeatureSet forced) const {
     return served_kernel(place_.backend, place_.needed, settings).name;
 }
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -6,7 +6,7 @@
 
 #include "ui/worker/published_frame.h"
 
-namespace pl {
+namespace pl::ui {
 
 struct EffectRow {
     std::string name;
@@ -44,4 +44,4 @@ private:
     std::string forced_kernel_;
 };
 
-}  // namespace pl
+}  // namespace pl::ui

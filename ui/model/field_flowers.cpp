@@ -5,7 +5,7 @@
 
 #include "ui/draw/direction_disc.h"
 
-namespace pl {
+namespace pl::ui {
 
 FlowerField make_flowers(const FieldKeyFrame& frame, int step, float diagonal, const StopFlag* stop) {
     const std::size_t least = (frame.volumes() + kMostFlowers - 1) / kMostFlowers;
@@ -97,4 +97,4 @@ const ScreenMesh& FieldFlowers::mesh(const PublishedFrame& frame, const Rect& im
     return mesh_.triangles;
 }
 
-}  // namespace pl
+}  // namespace pl::ui

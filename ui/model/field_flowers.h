@@ -7,7 +7,7 @@
 #include "ui/model/background_job.h"
 #include "ui/model/learning_time.h"
 
-namespace pl {
+namespace pl::ui {
 
 class FieldFlowers {
 public:
@@ -69,4 +69,4 @@ private:
 /// Flowers of a key frame: every `step`-th volume. `diagonal` of the scene decides their radius.
 FlowerField make_flowers(const FieldKeyFrame& frame, int step, float diagonal, const StopFlag* stop = nullptr);
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -9,7 +9,7 @@
 #include "ui/model/numbered_names.h"
 #include "ui/model/viewed_scene.h"
 
-namespace pl {
+namespace pl::ui {
 
 class FileNames {
 public:
@@ -31,4 +31,4 @@ private:
     NumberedNames numbers_;
 };
 
-}  // namespace pl
+}  // namespace pl::ui

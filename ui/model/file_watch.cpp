@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <system_error>
 
-namespace pl {
+namespace pl::ui {
 namespace {
 
 std::vector<FileStamp> stamps_of(const std::vector<std::filesystem::path>& files) {
@@ -75,4 +75,4 @@ void FileWatch::run() {
     }
 }
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-namespace pl {
+namespace pl::ui {
 
 /// Equal as long as nobody writes the file.
 struct FileStamp {
@@ -65,4 +65,4 @@ private:
     std::thread thread_;
 };
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -4,7 +4,7 @@
 
 #include "core/io/scene_materials.h"
 
-namespace pl {
+namespace pl::ui {
 
 std::filesystem::path Files::save_materials() {
     const std::filesystem::path path = names_.next(scene_, "materials", {".json"}).string() + ".json";
@@ -15,4 +15,4 @@ std::filesystem::path Files::save_materials() {
     return path;
 }
 
-}  // namespace pl
+}  // namespace pl::ui

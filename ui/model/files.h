@@ -6,7 +6,7 @@
 #include "ui/model/picture_files.h"
 #include "ui/model/saved_fields.h"
 
-namespace pl {
+namespace pl::ui {
 
 class Files {
 public:
@@ -38,4 +38,4 @@ private:
     SavedFields fields_;
 };
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -5,7 +5,7 @@
 #include "core/base/timer.h"
 #include "core/measure/run_recorder.h"
 
-namespace pl {
+namespace pl::ui {
 namespace {
 
 constexpr double kLeastMarkInterval = 1.0;  ///< seconds
@@ -77,4 +77,4 @@ const TileGains* GainMarks::gains() const {
     return result_ && link_.status().picture == picture_ ? &result_->gains : nullptr;
 }
 
-}  // namespace pl
+}  // namespace pl::ui

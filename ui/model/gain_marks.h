@@ -9,7 +9,7 @@
 #include "ui/model/background_job.h"
 #include "ui/model/render_link.h"
 
-namespace pl {
+namespace pl::ui {
 
 class GainMarks {
 public:
@@ -51,4 +51,4 @@ private:
     std::unique_ptr<Comparison> job_;
 };
 
-}  // namespace pl
+}  // namespace pl::ui

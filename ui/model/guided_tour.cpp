@@ -6,7 +6,7 @@
 
 #include "ui/model/viewer_model.h"
 
-namespace pl {
+namespace pl::ui {
 namespace {
 
 enum Step { kSplit, kPick, kDisc, kKnob, kFly, kPays, kStepCount };
@@ -151,4 +151,4 @@ std::string state_text(const GuidedTour& tour) {
     return "";
 }
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -7,7 +7,7 @@
 
 #include "ui/model/viewed_scene.h"
 
-namespace pl {
+namespace pl::ui {
 
 class ViewerModel;
 
@@ -77,4 +77,4 @@ private:
 /// "off", "offered", "opening", "1" to "6", "finished".
 std::string state_text(const GuidedTour& tour);
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-namespace pl {
+namespace pl::ui {
 
 class JobThread {
 public:
@@ -78,4 +78,4 @@ private:
     std::thread thread_;  ///< last: it uses all members above
 };
 
-}  // namespace pl
+}  // namespace pl::ui

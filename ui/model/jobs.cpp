@@ -3,7 +3,7 @@
 #include <exception>
 #include <string>
 
-namespace pl {
+namespace pl::ui {
 
 void Jobs::push(JobThread::Job job) {
     thread_.push([this, job = std::move(job)]() -> JobThread::Report {
@@ -20,4 +20,4 @@ void Jobs::update() {
         if (report) report();
 }
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -4,7 +4,7 @@
 #include "ui/model/job_thread.h"
 #include "ui/model/messages.h"
 
-namespace pl {
+namespace pl::ui {
 
 class Jobs {
 public:
@@ -24,4 +24,4 @@ private:
     JobThread thread_;
 };
 
-}  // namespace pl
+}  // namespace pl::ui

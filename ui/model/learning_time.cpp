@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace pl {
+namespace pl::ui {
 
 void LearningTime::send_limit() {
     const std::size_t kept = keeps_ ? static_cast<std::size_t>(megabytes_) << 20 : 0;
@@ -80,4 +80,4 @@ std::shared_ptr<const VolumeInspection> LearningTime::inspection(std::int32_t vo
     return inspection;
 }
 
-}  // namespace pl
+}  // namespace pl::ui

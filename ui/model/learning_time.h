@@ -7,7 +7,7 @@
 
 #include "ui/model/render_link.h"
 
-namespace pl {
+namespace pl::ui {
 
 class LearningTime {
 public:
@@ -59,4 +59,4 @@ private:
     std::map<std::int32_t, std::shared_ptr<const VolumeInspection>> inspections_;  ///< of the shown frame
 };
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -3,7 +3,7 @@
 #include "core/base/timer.h"
 #include "core/session/path_settings.h"
 
-namespace pl {
+namespace pl::ui {
 namespace {
 
 constexpr double kSliceSeconds = 0.25;
@@ -126,4 +126,4 @@ void LightTracing::update(const std::shared_ptr<const PublishedFrame>& frame, co
     if (!job_ && failure_.empty() && (!is_complete() || has_news)) begin_slice(*frame, history);
 }
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -10,7 +10,7 @@
 #include "ui/worker/field_history.h"
 #include "ui/worker/published_frame.h"
 
-namespace pl {
+namespace pl::ui {
 
 /// Figures of a field that so many passes had trained.
 struct FigurePoint {
@@ -84,4 +84,4 @@ private:
     std::unique_ptr<BackgroundJob<Slice>> job_;
 };
 
-}  // namespace pl
+}  // namespace pl::ui

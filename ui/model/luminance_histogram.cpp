@@ -5,7 +5,7 @@
 
 #include "core/kernel/film/tonemap.h"
 
-namespace pl {
+namespace pl::ui {
 namespace {
 
 constexpr float kBinsPerStop =
@@ -75,4 +75,4 @@ std::optional<float> automatic_exposure(const LuminanceHistogram& histogram) {
     return mean ? std::optional(std::log2(kGray) - *mean) : std::nullopt;
 }
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -8,7 +8,7 @@
 
 #include "core/kernel/base/math.h"
 
-namespace pl {
+namespace pl::ui {
 
 /// Counts of pixels by the binary logarithm of their luminance.
 struct LuminanceHistogram {
@@ -39,4 +39,4 @@ LuminanceHistogram make_histogram(std::span<const Vec3f> pixels, std::size_t mos
 /// for a black picture.
 std::optional<float> automatic_exposure(const LuminanceHistogram& histogram);
 
-}  // namespace pl
+}  // namespace pl::ui

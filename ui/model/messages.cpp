@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace pl {
+namespace pl::ui {
 namespace {
 
 constexpr double kToastSeconds = 4.0;
@@ -34,4 +34,4 @@ void Messages::say(MessageLevel level, const std::string& text) {
     toasts_.push_back({level, text, now_ + (level == MessageLevel::Info ? kToastSeconds : kErrorToastSeconds)});
 }
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace pl {
+namespace pl::ui {
 
 enum class MessageLevel { Info, Warning, Error };
 
@@ -48,4 +48,4 @@ private:
     std::vector<Toast> toasts_;
 };
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -2,7 +2,7 @@
 
 #include "core/base/timer.h"
 
-namespace pl {
+namespace pl::ui {
 namespace {
 
 constexpr double kNoiseSliceSeconds = 0.25;
@@ -33,18 +33,18 @@ void NoiseTracing::begin_slice() {
     job_ = std::make_unique<BackgroundJob<Slice>>(
         [tracer = tracer_, passes = passes_, pixel = pixel_](const JobMonitor& monitor) {
             const Stopwatch watch;
-            Slice slice{.tracer = tracer ? tracer : std::make_shared<PixelNoiseTracer>(*passes, pixel)};
+            Slice slice{.tracer = tracer ? tracer : std::make_shared<diagnose::PixelNoiseTracer>(*passes, pixel)};
             while (slice.tracer->paths() < kMostPaths && watch.seconds() < kNoiseSliceSeconds &&
                    slice.tracer->advance(monitor.stop)) {
             }
             if (slice.tracer->has_all_groups())
-                slice.noise = std::make_shared<const PixelNoise>(slice.tracer->noise());
+                slice.noise = std::make_shared<const diagnose::PixelNoise>(slice.tracer->noise());
             slice.seconds = watch.seconds();
             return slice;
         });
 }
 
-void NoiseTracing::update(const std::shared_ptr<const PassPair>& passes, std::uint32_t pixel) {
+void NoiseTracing::update(const std::shared_ptr<const diagnose::PassPair>& passes, std::uint32_t pixel) {
     take_slice();
     const bool is_shown = std::exchange(is_shown_, false);
     if (passes != passes_ || pixel != pixel_) {
@@ -59,4 +59,4 @@ void NoiseTracing::update(const std::shared_ptr<const PassPair>& passes, std::ui
     if (!job_ && failure_.empty() && !is_complete()) begin_slice();
 }
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -8,7 +8,7 @@
 #include "core/diagnose/pixel_noise.h"
 #include "ui/model/background_job.h"
 
-namespace pl {
+namespace pl::ui {
 
 class NoiseTracing {
 public:
@@ -19,12 +19,12 @@ public:
     void show() { is_shown_ = true; }
     /// Once per frame of the window: begins, continues or ends the work. It rests while no panel shows it, and starts over for other
     /// passes or another pixel. `passes` null: no pixel is clicked. They are only read.
-    void update(const std::shared_ptr<const PassPair>& passes, std::uint32_t pixel);
+    void update(const std::shared_ptr<const diagnose::PassPair>& passes, std::uint32_t pixel);
     /// Ends the work and forgets its result.
     void drop();
 
     /// Null before every group has paths.
-    const PixelNoise* noise() const { return noise_.get(); }
+    const diagnose::PixelNoise* noise() const { return noise_.get(); }
     /// Spent on it so far.
     double seconds() const { return seconds_; }
     bool is_working() const { return job_ != nullptr; }
@@ -33,8 +33,8 @@ public:
 
 private:
     struct Slice {
-        std::shared_ptr<PixelNoiseTracer> tracer{};
-        std::shared_ptr<const PixelNoise> noise{};
+        std::shared_ptr<diagnose::PixelNoiseTracer> tracer{};
+        std::shared_ptr<const diagnose::PixelNoise> noise{};
         double seconds = 0.0;
     };
 
@@ -42,14 +42,15 @@ private:
     void begin_slice();
     bool is_complete() const { return tracer_ != nullptr && tracer_->paths() >= kMostPaths; }
 
-    std::shared_ptr<const PassPair> passes_;
+    std::shared_ptr<const diagnose::PassPair> passes_;
     std::uint32_t pixel_ = 0;
-    std::shared_ptr<PixelNoiseTracer> tracer_;  ///< only of the job while there is one; null before the first
-    std::shared_ptr<const PixelNoise> noise_;
+    std::shared_ptr<diagnose::PixelNoiseTracer>
+        tracer_;  ///< only of the job while there is one; null before the first
+    std::shared_ptr<const diagnose::PixelNoise> noise_;
     double seconds_ = 0.0;
     bool is_shown_ = false;
     std::string failure_;
     std::unique_ptr<BackgroundJob<Slice>> job_;
 };
 
-}  // namespace pl
+}  // namespace pl::ui

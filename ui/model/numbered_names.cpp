@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-namespace pl {
+namespace pl::ui {
 
 std::filesystem::path NumberedNames::next(const std::filesystem::path& dir, const std::string& stem,
                                           std::initializer_list<const char*> suffixes) {
@@ -28,4 +28,4 @@ std::string file_name_part(const std::string& text) {
     return result.empty() ? "picture" : result;
 }
 
-}  // namespace pl
+}  // namespace pl::ui

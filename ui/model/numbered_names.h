@@ -5,7 +5,7 @@
 #include <initializer_list>
 #include <string>
 
-namespace pl {
+namespace pl::ui {
 
 class NumberedNames {
 public:
@@ -20,4 +20,4 @@ private:
 /// Letters, digits, '-' and '_' of the text, the rest replaced by '-'.
 std::string file_name_part(const std::string& text);
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -9,7 +9,7 @@
 #include "core/io/files.h"
 #include "core/io/mesh_file.h"
 
-namespace pl {
+namespace pl::ui {
 namespace {
 
 bool can_be_opened(const std::filesystem::path& file) {
@@ -71,4 +71,4 @@ void OpenDialog::open(const std::string& name) {
     is_shown_ = false;
 }
 
-}  // namespace pl
+}  // namespace pl::ui

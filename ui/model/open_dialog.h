@@ -9,7 +9,7 @@
 #include "ui/model/files.h"
 #include "ui/model/scene_gallery.h"
 
-namespace pl {
+namespace pl::ui {
 
 /// The entries of a folder, sorted, without hidden files.
 struct FolderListing {
@@ -58,4 +58,4 @@ private:
     std::uint64_t newest_look_ = 0;  ///< an older one that ends later is dropped
 };
 
-}  // namespace pl
+}  // namespace pl::ui

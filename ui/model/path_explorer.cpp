@@ -2,12 +2,13 @@
 
 #include <algorithm>
 
-namespace pl {
+namespace pl::ui {
 namespace {
 
-void add_side(std::vector<PathPiece>& lines, const PixelPaths& paths, bool is_guided, const DrawnPaths& drawn) {
-    const std::vector<PathRecord>& side = is_guided ? paths.guided : paths.plain;
-    const std::vector<std::size_t> order = by_light(side);
+void add_side(std::vector<PathPiece>& lines, const diagnose::PixelPaths& paths, bool is_guided,
+              const DrawnPaths& drawn) {
+    const std::vector<diagnose::PathRecord>& side = is_guided ? paths.guided : paths.plain;
+    const std::vector<std::size_t> order = diagnose::by_light(side);
     for (auto i = order.rbegin(); i != order.rend(); ++i) {
         if (is_guided == drawn.lists_guided && *i == drawn.selected) continue;
         add_path(lines, side[*i],
@@ -20,15 +21,15 @@ void add_side(std::vector<PathPiece>& lines, const PixelPaths& paths, bool is_gu
 
 }  // namespace
 
-ValueRange light_range(const PixelPaths& paths) {
+ValueRange light_range(const diagnose::PixelPaths& paths) {
     std::vector<float> light;
-    for (const PathRecord& path : paths.plain) light.push_back(path_light(path));
-    for (const PathRecord& path : paths.guided) light.push_back(path_light(path));
+    for (const diagnose::PathRecord& path : paths.plain) light.push_back(diagnose::path_light(path));
+    for (const diagnose::PathRecord& path : paths.guided) light.push_back(diagnose::path_light(path));
     std::erase(light, 0.0f);  // paths without light have a color of their own
     return range_of(light, {.scale = ColorScale::Logarithmic});
 }
 
-std::vector<PathPiece> lines_of(const PixelPaths& paths, const DrawnPaths& drawn) {
+std::vector<PathPiece> lines_of(const diagnose::PixelPaths& paths, const DrawnPaths& drawn) {
     std::vector<PathPiece> lines;
     const bool two = !paths.guided.empty();
     if (!two || drawn.sides != PathSides::Guided) add_side(lines, paths, false, drawn);
@@ -80,7 +81,7 @@ void PathExplorer::take_answer() {
 }
 
 /// The pixel of the click, and as many paths as are to be shown.
-PixelPathsRequest PathExplorer::wanted() const {
+diagnose::PixelPathsRequest PathExplorer::wanted() const {
     const auto cell = [](float share, int size) {
         return std::clamp(static_cast<int>(share * static_cast<float>(size)), 0, size - 1);
     };
@@ -120,7 +121,7 @@ void PathExplorer::update() {
     job_.reset();  // ends the search of before
     begun_ = wanted();
     job_ = std::make_unique<BackgroundJob<Traced>>([passes = passes_, request = begun_](const JobMonitor& monitor) {
-        return std::make_shared<const PixelPaths>(trace_pixel(*passes, request, monitor.stop));
+        return std::make_shared<const diagnose::PixelPaths>(diagnose::trace_pixel(*passes, request, monitor.stop));
     });
 }
 
@@ -134,7 +135,7 @@ bool PathExplorer::lists_guided() const {
 
 std::optional<std::size_t> PathExplorer::selected() const {
     if (!paths_ || listed().empty()) return std::nullopt;
-    return selected_ && *selected_ < listed().size() ? *selected_ : by_light(listed()).front();
+    return selected_ && *selected_ < listed().size() ? *selected_ : diagnose::by_light(listed()).front();
 }
 
 const std::vector<PathPiece>& PathExplorer::pieces(const PublishedFrame& frame) {
@@ -159,4 +160,4 @@ const std::vector<PathPiece>& PathExplorer::pieces(const PublishedFrame& frame) 
     return lines_.pieces;
 }
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -11,20 +11,20 @@
 #include "ui/model/noise_tracing.h"
 #include "ui/model/render_link.h"
 
-namespace pl {
+namespace pl::ui {
 
 /// The methods whose paths are drawn.
 enum class PathSides { Plain, Guided, Both };
 
 struct PathOptions {
     int count = 32;
-    PassChoice choice = PassChoice::Brightest;
+    diagnose::PassChoice choice = diagnose::PassChoice::Brightest;
     PathSides sides = PathSides::Both;
     bool has_shadow_rays = false;
 };
 
 /// The light of all paths, for their colors; those without light are left out.
-ValueRange light_range(const PixelPaths& paths);
+ValueRange light_range(const diagnose::PixelPaths& paths);
 
 /// The paths of a pixel, as they are drawn.
 struct DrawnPaths {
@@ -36,7 +36,7 @@ struct DrawnPaths {
     float escape_length = 1.0f;             ///< of rays that leave the scene, in scene units
 };
 /// Darkest first. Those of the baseline are dashed where there are others.
-std::vector<PathPiece> lines_of(const PixelPaths& paths, const DrawnPaths& drawn);
+std::vector<PathPiece> lines_of(const diagnose::PixelPaths& paths, const DrawnPaths& drawn);
 
 class PathExplorer {
 public:
@@ -55,7 +55,7 @@ public:
     PathOptions& options() { return options_; }
     const PathOptions& options() const { return options_; }
     /// Null without a clicked pixel, and until its first paths are traced.
-    const PixelPaths* paths() const { return paths_.get(); }
+    const diagnose::PixelPaths* paths() const { return paths_.get(); }
     /// Of paths(): pixel under the click, and the method of its guided paths.
     int x() const { return static_cast<int>(paths_->pixel) % passes_->plain.width; }
     int y() const { return static_cast<int>(paths_->pixel) / passes_->plain.width; }
@@ -67,7 +67,9 @@ public:
 
     /// The paths that the table lists and of which one is selected: by the method of the picture, or as drawn.
     bool lists_guided() const;
-    const std::vector<PathRecord>& listed() const { return lists_guided() ? paths_->guided : paths_->plain; }
+    const std::vector<diagnose::PathRecord>& listed() const {
+        return lists_guided() ? paths_->guided : paths_->plain;
+    }
     /// Index into listed(): the brightest one until another is selected.
     std::optional<std::size_t> selected() const;
     void select(std::size_t index) { selected_ = index; }
@@ -80,7 +82,7 @@ public:
     std::uint64_t times_made() const { return lines_.times_made; }
 
 private:
-    using Traced = std::shared_ptr<const PixelPaths>;
+    using Traced = std::shared_ptr<const diagnose::PixelPaths>;
 
     /// All that decides the lines.
     struct LinesKey {
@@ -107,7 +109,7 @@ private:
     void take_paths();
     void drop_with_scene();
     void drop();
-    PixelPathsRequest wanted() const;
+    diagnose::PixelPathsRequest wanted() const;
     bool has_two_sides() const;
 
     RenderLink& link_;
@@ -115,9 +117,9 @@ private:
     bool is_shown_ = false;
     Click click_;
     PathOptions options_;
-    std::shared_ptr<PassPair> passes_;  ///< only read; the job has a view of its field
-    std::uint64_t generation_ = 0;      ///< of the picture of passes_
-    PixelPathsRequest begun_{.count = 0};
+    std::shared_ptr<diagnose::PassPair> passes_;  ///< only read; the job has a view of its field
+    std::uint64_t generation_ = 0;                ///< of the picture of passes_
+    diagnose::PixelPathsRequest begun_{.count = 0};
     Traced paths_;
     ValueRange range_;
     std::optional<std::size_t> selected_;
@@ -126,4 +128,4 @@ private:
     std::unique_ptr<BackgroundJob<Traced>> job_;
 };
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -8,7 +8,7 @@
 
 #include "ui/model/window_files.h"
 
-namespace pl {
+namespace pl::ui {
 namespace {
 
 constexpr double kSaveSeconds = 3.0;  ///< longest wait for the values of a picture from a failed render thread
@@ -97,4 +97,4 @@ void PictureFiles::save_window(ScreenPixels pixels, std::filesystem::path path) 
     });
 }
 
-}  // namespace pl
+}  // namespace pl::ui

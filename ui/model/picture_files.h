@@ -12,7 +12,7 @@
 #include "ui/model/services.h"
 #include "ui/model/viewed_scene.h"
 
-namespace pl {
+namespace pl::ui {
 
 class PictureFiles {
 public:
@@ -56,4 +56,4 @@ private:
     double deadline_ = 0.0;                       ///< end of the wait if rendering has failed
 };
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -8,7 +8,7 @@
 
 #include "ui/worker/render_worker.h"
 
-namespace pl {
+namespace pl::ui {
 
 class PinnedVolumes {
 public:
@@ -52,4 +52,4 @@ private:
     std::array<std::int32_t, kMost> places_ = kNone;
 };
 
-}  // namespace pl
+}  // namespace pl::ui

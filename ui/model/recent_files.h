@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-namespace pl {
+namespace pl::ui {
 
 class RecentFiles {
 public:
@@ -30,4 +30,4 @@ private:
     std::vector<std::string> names_;
 };
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -4,7 +4,7 @@
 
 #include "ui/model/stored_reference.h"
 
-namespace pl {
+namespace pl::ui {
 
 References::References(const ModelServices& services, const RenderControls& render, const ViewedScene& scene)
     : options_(services.options), messages_(services.messages), jobs_(services.jobs), link_(services.link),
@@ -84,4 +84,4 @@ void References::take_result() {
         messages_.say(MessageLevel::Info, "the reference was ended before both halves had samples");
 }
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -10,7 +10,7 @@
 #include "ui/model/services.h"
 #include "ui/model/viewed_scene.h"
 
-namespace pl {
+namespace pl::ui {
 
 class References {
 public:
@@ -45,4 +45,4 @@ private:
     std::unique_ptr<ReferenceJob> job_;
 };
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -4,7 +4,7 @@
 
 #include "core/base/error.h"
 
-namespace pl {
+namespace pl::ui {
 namespace {
 
 bool is_there(const std::filesystem::path& file) {
@@ -70,4 +70,4 @@ void RememberedWindow::forget(const WindowMemory& now, double seconds, Messages&
         messages.say(MessageLevel::Info, "the window is as at a first start; nothing of it is remembered");
 }
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -7,7 +7,7 @@
 #include "ui/model/messages.h"
 #include "ui/model/window_memory.h"
 
-namespace pl {
+namespace pl::ui {
 
 class RememberedWindow {
 public:
@@ -46,4 +46,4 @@ private:
     bool has_failed_ = false;
 };
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-namespace pl {
+namespace pl::ui {
 
 RenderControls::RenderControls(const ModelServices& services, CameraMotion& camera, Selection& selection,
                                const RenderSettings& settings)
@@ -194,4 +194,4 @@ void RenderControls::next_backend() {
     set_backend(choices[(index + 1) % choices.size()].name);
 }
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -7,7 +7,7 @@
 #include "ui/model/selection.h"
 #include "ui/model/services.h"
 
-namespace pl {
+namespace pl::ui {
 
 class RenderControls {
 public:
@@ -70,4 +70,4 @@ private:
     std::uint64_t backend_generation_ = 0;
 };
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -1,6 +1,6 @@
 #include "ui/model/render_link.h"
 
-namespace pl {
+namespace pl::ui {
 
 void RenderLink::update() {
     if (const std::exception_ptr failure = worker_.failure()) std::rethrow_exception(failure);
@@ -39,4 +39,4 @@ void RenderLink::end_turns(MethodId method) {
     worker_.submit(EditMethod{method});
 }
 
-}  // namespace pl
+}  // namespace pl::ui

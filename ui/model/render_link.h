@@ -9,7 +9,7 @@
 #include "ui/model/throughput.h"
 #include "ui/worker/render_worker.h"
 
-namespace pl {
+namespace pl::ui {
 
 class RenderLink {
 public:
@@ -53,4 +53,4 @@ private:
     std::bitset<5> holds_;
 };
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -8,7 +8,7 @@
 #include "core/io/field_file.h"
 #include "ui/model/window_files.h"
 
-namespace pl {
+namespace pl::ui {
 
 SavedFields::SavedFields(const ModelServices& services, FileNames& names, const ViewedScene& scene,
                          RenderControls& render)
@@ -88,4 +88,4 @@ void SavedFields::adopt(const std::shared_ptr<LearnedField>& field, const std::f
     messages_.say(MessageLevel::Info, fmt::format("continuing from {}: {}", path.string(), summary_of(*field)));
 }
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -9,7 +9,7 @@
 #include "ui/model/services.h"
 #include "ui/model/viewed_scene.h"
 
-namespace pl {
+namespace pl::ui {
 
 /// Suffix of learned fields that the viewer saves.
 inline constexpr std::string_view kFieldSuffix = ".field";
@@ -43,4 +43,4 @@ private:
     std::filesystem::path promised_;  ///< the name for the field that was requested; empty if any will do
 };
 
-}  // namespace pl
+}  // namespace pl::ui

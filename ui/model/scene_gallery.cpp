@@ -8,7 +8,7 @@
 #include "core/io/json_file.h"
 #include "ui/model/thumbnail.h"
 
-namespace pl {
+namespace pl::ui {
 
 void SceneGallery::set_shown(bool is_shown) {
     is_shown_ = is_shown;
@@ -109,4 +109,4 @@ std::shared_ptr<const ByteImage> SceneGallery::picture(const std::string& scene)
     return nullptr;
 }
 
-}  // namespace pl
+}  // namespace pl::ui

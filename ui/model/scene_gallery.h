@@ -11,7 +11,7 @@
 #include "ui/model/background_job.h"
 #include "ui/model/services.h"
 
-namespace pl {
+namespace pl::ui {
 
 class SceneGallery {
 public:
@@ -71,4 +71,4 @@ private:
     std::unique_ptr<BackgroundJob<Outcome>> job_;  ///< last: it uses all members above
 };
 
-}  // namespace pl
+}  // namespace pl::ui

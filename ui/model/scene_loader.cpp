@@ -3,7 +3,7 @@
 #include <exception>
 #include <utility>
 
-namespace pl {
+namespace pl::ui {
 
 const LoadOrder* SceneLoader::newest() const {
     if (waiting_) return &*waiting_;
@@ -38,4 +38,4 @@ void SceneLoader::end(std::shared_ptr<const SceneDescription> scene, const std::
     if (!is_stale) finish_(ended, std::move(scene), failure);
 }
 
-}  // namespace pl
+}  // namespace pl::ui

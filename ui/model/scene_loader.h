@@ -8,7 +8,7 @@
 
 #include "ui/model/services.h"
 
-namespace pl {
+namespace pl::ui {
 
 /// Reasons for loading a scene, which decide about the parts of the window that stay.
 enum class LoadReason {
@@ -49,4 +49,4 @@ private:
     std::optional<LoadOrder> waiting_;
 };
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-namespace pl {
+namespace pl::ui {
 
 void Selection::update() {
     light_.update(link_.frame(), inspection(), link_.worker().history());
@@ -50,4 +50,4 @@ const VolumeInspection* Selection::inspection() const {
     return fits ? frame->volume.get() : nullptr;
 }
 
-}  // namespace pl
+}  // namespace pl::ui

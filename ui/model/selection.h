@@ -9,7 +9,7 @@
 #include "ui/model/pinned_volumes.h"
 #include "ui/model/render_link.h"
 
-namespace pl {
+namespace pl::ui {
 
 class Selection {
 public:
@@ -73,4 +73,4 @@ private:
     PinnedVolumes pins_{link_.worker()};
 };
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -2,7 +2,7 @@
 
 #include "core/selftest/self_test.h"
 
-namespace pl {
+namespace pl::ui {
 
 void SelfTestControl::start() {
     is_shown_ = true;
@@ -28,4 +28,4 @@ void SelfTestControl::update() {
         messages_.say(MessageLevel::Error, text);
 }
 
-}  // namespace pl
+}  // namespace pl::ui

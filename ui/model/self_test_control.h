@@ -4,7 +4,7 @@
 #include "ui/model/self_test_run.h"
 #include "ui/model/services.h"
 
-namespace pl {
+namespace pl::ui {
 
 class SelfTestControl {
 public:
@@ -29,4 +29,4 @@ private:
     bool is_shown_ = false;
 };
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-namespace pl {
+namespace pl::ui {
 namespace {
 
 std::string checks_text(std::size_t count) { return fmt::format("{} {}", count, count == 1 ? "check" : "checks"); }
@@ -95,4 +95,4 @@ const char* name_of(SelfTestRun::Outcome outcome) {
     return "";
 }
 
-}  // namespace pl
+}  // namespace pl::ui

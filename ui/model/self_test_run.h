@@ -9,7 +9,7 @@
 #include "core/selftest/self_check.h"
 #include "ui/model/background_job.h"
 
-namespace pl {
+namespace pl::ui {
 
 class SelfTestRun {
 public:
@@ -50,4 +50,4 @@ private:
 
 const char* name_of(SelfTestRun::Outcome outcome);
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -6,7 +6,7 @@
 #include "ui/model/render_link.h"
 #include "ui/viewer.h"
 
-namespace pl {
+namespace pl::ui {
 
 /// All outlive the parts that are given them.
 struct ModelServices {
@@ -16,4 +16,4 @@ struct ModelServices {
     RenderLink& link;
 };
 
-}  // namespace pl
+}  // namespace pl::ui

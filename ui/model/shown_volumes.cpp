@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-namespace pl {
+namespace pl::ui {
 namespace {
 
 std::vector<float> normalized(std::vector<float> values) {
@@ -105,4 +105,4 @@ ShareDifference difference(const std::vector<float>& now, const std::vector<floa
     return result;
 }
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -7,7 +7,7 @@
 
 #include "ui/model/viewer_model.h"
 
-namespace pl {
+namespace pl::ui {
 
 struct ShownVolume {
     std::shared_ptr<const VolumeInspection> volume{};  ///< with cells; never null
@@ -35,4 +35,4 @@ struct ShareDifference {
 };
 ShareDifference difference(const std::vector<float>& now, const std::vector<float>& then);
 
-}  // namespace pl
+}  // namespace pl::ui

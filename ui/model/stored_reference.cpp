@@ -3,13 +3,13 @@
 #include "core/bench/make_reference.h"
 #include "core/measure/picture_identity.h"
 
-namespace pl {
+namespace pl::ui {
 namespace {
 
 /// Samples in each half: more than a picture in a window reaches. Rendering may be stopped earlier.
 constexpr std::uint32_t kStoredReferenceSpp = 4096;
 
-std::shared_ptr<const StoredReference> to_viewer(const Reference& reference, const SceneDescription& scene,
+std::shared_ptr<const StoredReference> to_viewer(const bench::Reference& reference, const SceneDescription& scene,
                                                  const RenderSettings& settings) {
     if (!reference.has_samples()) return nullptr;
     const auto& [first, second] = reference.halves;
@@ -40,7 +40,7 @@ RenderSettings reference_settings(RenderSettings settings) {
 std::shared_ptr<const StoredReference> find_stored_reference(const std::filesystem::path& folder,
                                                              const SceneDescription& scene,
                                                              const RenderSettings& settings) {
-    const auto found = ReferenceStore(folder).find(content_of(scene, settings));
+    const auto found = bench::ReferenceStore(folder).find(bench::content_of(scene, settings));
     return found ? to_viewer(*found, scene, settings) : nullptr;
 }
 
@@ -49,16 +49,16 @@ std::shared_ptr<const StoredReference> make_stored_reference(const std::filesyst
                                                              const BackendFactory& make_backend,
                                                              const JobMonitor& monitor) {
     Session session(make_backend("cpu"), scene.description, reference_settings(settings));
-    const ReferenceOutcome outcome =
-        make_reference(session,
-                       {.scene = scene.name,
-                        .spp = kStoredReferenceSpp,
-                        .seconds = {},
-                        .in_both_halves = true,
-                        .stop = monitor.stop,
-                        .show = [&](const ProgressState& state) { monitor.progress(state.share, state.detail); }},
-                       ReferenceStore(folder));
+    const bench::ReferenceOutcome outcome = bench::make_reference(
+        session,
+        {.scene = scene.name,
+         .spp = kStoredReferenceSpp,
+         .seconds = {},
+         .in_both_halves = true,
+         .stop = monitor.stop,
+         .show = [&](const ProgressState& state) { monitor.progress(state.share, state.detail); }},
+        bench::ReferenceStore(folder));
     return to_viewer(outcome.reference, *scene.description, settings);
 }
 
-}  // namespace pl
+}  // namespace pl::ui

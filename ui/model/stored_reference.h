@@ -7,7 +7,7 @@
 #include "core/session/backend_factory.h"
 #include "ui/viewer.h"
 
-namespace pl {
+namespace pl::ui {
 
 /// The stored reference of exactly this picture; null if there is none with samples in both halves. Throws
 /// Error(Input) for files that are damaged or whose content differs from the one in their name.
@@ -22,4 +22,4 @@ std::shared_ptr<const StoredReference> make_stored_reference(const std::filesyst
                                                              const BackendFactory& make_backend,
                                                              const JobMonitor& monitor);
 
-}  // namespace pl
+}  // namespace pl::ui

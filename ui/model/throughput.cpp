@@ -1,6 +1,6 @@
 #include "ui/model/throughput.h"
 
-namespace pl {
+namespace pl::ui {
 
 void Throughput::observe(const Snapshot& snapshot, const std::string& backend) {
     const std::uint64_t paths = snapshot.counters.paths;
@@ -18,4 +18,4 @@ void Throughput::observe(const Snapshot& snapshot, const std::string& backend) {
     seconds_ = snapshot.clocks.render;
 }
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -5,7 +5,7 @@
 
 #include "core/session/snapshot.h"
 
-namespace pl {
+namespace pl::ui {
 
 class Throughput {
 public:
@@ -25,4 +25,4 @@ private:
     double seconds_ = 0.0;     ///< on the render clock, at the start of the interval
 };
 
-}  // namespace pl
+}  // namespace pl::ui

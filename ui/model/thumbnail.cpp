@@ -8,7 +8,7 @@
 #include "core/scene/scene_hash.h"
 #include "core/session/session.h"
 
-namespace pl {
+namespace pl::ui {
 namespace {
 
 /// Grows when the same scene gets another picture.
@@ -74,4 +74,4 @@ std::optional<ByteImage> render_thumbnail(std::shared_ptr<const SceneDescription
     return display_image(session.snapshot(slot), {});
 }
 
-}  // namespace pl
+}  // namespace pl::ui

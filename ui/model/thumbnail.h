@@ -8,7 +8,7 @@
 #include "core/scene/description.h"
 #include "core/session/backend_factory.h"
 
-namespace pl {
+namespace pl::ui {
 
 inline constexpr int kThumbnailWidth = 160;
 inline constexpr int kThumbnailHeight = 120;
@@ -30,4 +30,4 @@ std::optional<ByteImage> render_thumbnail(std::shared_ptr<const SceneDescription
                                           const BackendFactory& make_backend, ThumbnailQuality quality,
                                           const StopFlag* stop);
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -9,7 +9,7 @@
 #include "core/scene/instances.h"
 #include "core/scene/pack_scene.h"
 
-namespace pl {
+namespace pl::ui {
 namespace {
 
 /// Means the same in every working directory.
@@ -165,4 +165,4 @@ void ViewedScene::restore_materials() {
     for (std::uint32_t i = 0; i < materials_.now().size(); ++i) restore_material(i);
 }
 
-}  // namespace pl
+}  // namespace pl::ui

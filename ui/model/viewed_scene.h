@@ -14,7 +14,7 @@
 #include "ui/model/selection.h"
 #include "ui/model/services.h"
 
-namespace pl {
+namespace pl::ui {
 
 class ViewedScene {
 public:
@@ -84,4 +84,4 @@ private:
     FileWatch watch_;
 };
 
-}  // namespace pl
+}  // namespace pl::ui

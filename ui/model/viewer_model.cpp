@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-namespace pl {
+namespace pl::ui {
 namespace {
 
 WorkerSetup worker_setup(const ViewerOptions& options, std::shared_ptr<const SceneDescription> scene,
@@ -133,4 +133,4 @@ void ViewerModel::cancel() {
         selection_.deselect();
 }
 
-}  // namespace pl
+}  // namespace pl::ui

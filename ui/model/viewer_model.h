@@ -18,7 +18,7 @@
 #include "ui/model/self_test_control.h"
 #include "ui/model/window_state.h"
 
-namespace pl {
+namespace pl::ui {
 
 class ViewerModel {
 public:
@@ -123,4 +123,4 @@ private:
     SequenceWriter sequence_;
 };
 
-}  // namespace pl
+}  // namespace pl::ui

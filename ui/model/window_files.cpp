@@ -7,7 +7,7 @@
 #include "core/io/field_file.h"
 #include "core/io/picture_file.h"
 
-namespace pl {
+namespace pl::ui {
 namespace {
 
 ImageMetadata metadata_of(const Snapshot& snapshot, const ViewerPicture& picture, const std::string& command) {
@@ -44,4 +44,4 @@ std::shared_ptr<LearnedField> load_window_field(const std::filesystem::path& pat
     return field;
 }
 
-}  // namespace pl
+}  // namespace pl::ui

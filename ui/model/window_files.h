@@ -8,7 +8,7 @@
 #include "core/session/learned_field.h"
 #include "ui/viewer.h"
 
-namespace pl {
+namespace pl::ui {
 
 /// Writes .png (tone mapped) or .exr (linear) by suffix; `command` repeats the picture in a shell.
 void save_window_picture(const std::filesystem::path& path, const Snapshot& snapshot, const ViewerPicture& picture,
@@ -20,4 +20,4 @@ void save_window_pixels(const std::filesystem::path& path, const ScreenPixels& p
 /// Reads a learned field for the open scene. Throws Error(Input) for a damaged file or one of another scene.
 std::shared_ptr<LearnedField> load_window_field(const std::filesystem::path& path, const SceneDescription& scene);
 
-}  // namespace pl
+}  // namespace pl::ui

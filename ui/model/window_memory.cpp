@@ -7,7 +7,7 @@
 
 #include "ui/model/viewer_model.h"
 
-namespace pl {
+namespace pl::ui {
 namespace {
 
 constexpr std::array<const char*, 2> kLayoutNames{"explore", "research"};
@@ -209,4 +209,4 @@ void restore(const WindowMemory& memory, ViewerModel& model) {
 
 const char* name_of(WindowLayout layout) { return kLayoutNames[static_cast<std::size_t>(layout)]; }
 
-}  // namespace pl
+}  // namespace pl::ui

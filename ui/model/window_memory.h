@@ -14,7 +14,7 @@
 #include "ui/model/window_state.h"
 #include "ui/plot/run_lines.h"
 
-namespace pl {
+namespace pl::ui {
 
 class ViewerModel;
 
@@ -53,4 +53,4 @@ void restore(const WindowMemory& memory, ViewerModel& model);
 
 const char* name_of(WindowLayout layout);
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -1,7 +1,7 @@
 // Place of a window on the desktop, and scale of its text.
 #pragma once
 
-namespace pl {
+namespace pl::ui {
 
 /// In the desktop's coordinates.
 struct WindowPlace {
@@ -18,4 +18,4 @@ struct WindowPlace {
 inline constexpr float kLeastUiScale = 0.75f;
 inline constexpr float kMostUiScale = 2.0f;
 
-}  // namespace pl
+}  // namespace pl::ui

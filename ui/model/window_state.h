@@ -9,7 +9,7 @@
 #include "ui/draw/picture_zoom.h"
 #include "ui/plot/plot_drag.h"
 
-namespace pl {
+namespace pl::ui {
 
 /// The values drawn in the cells of the selected volume's hemisphere.
 struct CellDisplay {
@@ -57,4 +57,4 @@ struct WindowState {
     WindowRequests requests;
 };
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -9,7 +9,7 @@
 #include "ui/draw/words.h"
 #include "ui/overlays/overlays.h"
 
-namespace pl {
+namespace pl::ui {
 namespace {
 
 /// Small labels in a row, from the left.
@@ -142,7 +142,7 @@ void add_reference_badge(BadgeRow& row, const ViewerModel& model) {
                 colors::kWarning);
 }
 
-ImU32 color_of(const DiagnosticInfo& diagnostics) {
+ImU32 color_of(const diagnose::DiagnosticInfo& diagnostics) {
     return IM_COL32(diagnostics.color >> 16 & 255, diagnostics.color >> 8 & 255, diagnostics.color & 255, 255);
 }
 
@@ -152,13 +152,13 @@ void add_diagnostics_badges(BadgeRow& row, const ViewerModel& model) {
         row.add(fmt::format("searching for invalid samples, {:.0f} %", 100.0 * *share), colors::kWarning);
     const auto map = model.diagnostics().map();
     if (!map) return;
-    for (const DiagnosticInfo& diagnostics : all_diagnostics()) {
+    for (const diagnose::DiagnosticInfo& diagnostics : diagnose::all_diagnostics()) {
         const std::uint64_t count = map->found[static_cast<std::size_t>(diagnostics.id)];
         if (count > 0)
             row.add(fmt::format("{} {}", short_number(static_cast<double>(count)), diagnostics.label),
                     color_of(diagnostics));
     }
-    if (map->found == DiagnosticCounts{}) row.add("all samples valid", colors::kGood);
+    if (map->found == diagnose::DiagnosticCounts{}) row.add("all samples valid", colors::kGood);
     row.add(fmt::format("after {} spp", map->samples), colors::kText);
     if (!map->is_complete)
         row.add(fmt::format("only the last {} searched", map->traced), colors::kWarning);
@@ -234,4 +234,4 @@ void draw_badges(ViewerModel& model, const Layout& layout, const ComparePlan& pl
         draw_precompute_progress(model, layout, status.field->precomputed_share);
 }
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -7,7 +7,7 @@
 #include "ui/draw/widgets.h"
 #include "ui/overlays/overlays.h"
 
-namespace pl {
+namespace pl::ui {
 namespace {
 
 constexpr float kHandlePixels = 12.0f;
@@ -100,4 +100,4 @@ void draw_comparison(ViewerModel& model, const ComparePlan& plan) {
     if (plan.split_x) draw_handle(model, plan.tiles.front(), *plan.split_x);
 }
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -4,7 +4,7 @@
 
 #include "ui/draw/style.h"
 
-namespace pl {
+namespace pl::ui {
 
 Vec2f screen_size(const Layout& layout) {
     if (!layout.panels) return {layout.view.width, layout.view.height};
@@ -20,4 +20,4 @@ void begin_dialog(const char* name, bool& open, const Layout& layout, float widt
                      ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav);
 }
 
-}  // namespace pl
+}  // namespace pl::ui

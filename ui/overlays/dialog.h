@@ -3,7 +3,7 @@
 
 #include "ui/draw/layout.h"
 
-namespace pl {
+namespace pl::ui {
 
 /// Width and height of the whole window, with panels or without.
 Vec2f screen_size(const Layout& layout);
@@ -12,4 +12,4 @@ Vec2f screen_size(const Layout& layout);
 /// it with ImGui::End().
 void begin_dialog(const char* name, bool& open, const Layout& layout, float width);
 
-}  // namespace pl
+}  // namespace pl::ui

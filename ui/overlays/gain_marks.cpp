@@ -1,7 +1,7 @@
 #include "ui/draw/widgets.h"
 #include "ui/overlays/overlays.h"
 
-namespace pl {
+namespace pl::ui {
 namespace {
 
 /// A triangle up for a gain, one down for a loss, a disc for no difference, a ring where nothing is known.
@@ -39,4 +39,4 @@ void draw_gain_marks(const ViewerModel& model, const Rect& image) {
     out.PopClipRect();
 }
 
-}  // namespace pl
+}  // namespace pl::ui

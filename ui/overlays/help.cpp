@@ -5,7 +5,7 @@
 #include "ui/overlays/dialog.h"
 #include "ui/overlays/overlays.h"
 
-namespace pl {
+namespace pl::ui {
 namespace {
 
 constexpr float kKeysEm = 7.5f;
@@ -62,4 +62,4 @@ void draw_help(ViewerModel& model, const Layout& layout) {
     ImGui::End();
 }
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -3,7 +3,7 @@
 #include "ui/overlays/overlays.h"
 #include "ui/overlays/scene_shapes.h"
 
-namespace pl {
+namespace pl::ui {
 namespace {
 
 /// The direction of the hovered cell, up to the surface in that direction.
@@ -48,4 +48,4 @@ void draw_flowers(ViewerModel& model, const Rect& image) {
     out.PopClipRect();
 }
 
-}  // namespace pl
+}  // namespace pl::ui

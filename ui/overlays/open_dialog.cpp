@@ -11,7 +11,7 @@
 #include "ui/overlays/dialog.h"
 #include "ui/overlays/overlays.h"
 
-namespace pl {
+namespace pl::ui {
 namespace {
 
 /// After a Selectable that a click chooses and a double click opens.
@@ -136,4 +136,4 @@ void draw_open_dialog(ViewerModel& model, const Layout& layout) {
     ImGui::End();
 }
 
-}  // namespace pl
+}  // namespace pl::ui

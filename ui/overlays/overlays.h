@@ -5,7 +5,7 @@
 #include "ui/draw/magnifier.h"
 #include "ui/model/viewer_model.h"
 
-namespace pl {
+namespace pl::ui {
 
 /// Lobes or domes of the selected and the pinned volumes at their positions, with their peaks and the ray of the hovered cell.
 void draw_hemisphere(ViewerModel& model, const Rect& image);
@@ -49,4 +49,4 @@ void draw_show_panels(ViewerModel& model);
 /// All keys, from the table that dispatches them.
 void draw_help(ViewerModel& model, const Layout& layout);
 
-}  // namespace pl
+}  // namespace pl::ui

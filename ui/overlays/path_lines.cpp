@@ -6,11 +6,11 @@
 #include "ui/overlays/overlays.h"
 #include "ui/overlays/scene_shapes.h"
 
-namespace pl {
+namespace pl::ui {
 namespace {
 
 /// The numbers of a path's vertices, at their positions.
-void draw_numbers(ImDrawList& out, const PathRecord& path, const Projection& projection) {
+void draw_numbers(ImDrawList& out, const diagnose::PathRecord& path, const Projection& projection) {
     for (std::size_t i = 0; i < path.vertices.size(); ++i) {
         if (path.vertices[i].is_escape) continue;
         const auto point = projection(path.vertices[i].position);
@@ -41,7 +41,7 @@ void draw_stroke(ImDrawList& out, const Stroke& stroke) {
 }  // namespace
 
 void draw_strokes(ImDrawList& out, std::span<const PathPiece> pieces, const Projection& projection,
-                  const PathRecord* numbered) {
+                  const diagnose::PathRecord* numbered) {
     for (const Stroke& stroke : strokes_of(pieces, projection, em(1.0f) / kFontPixels)) draw_stroke(out, stroke);
     if (numbered != nullptr) draw_numbers(out, *numbered, projection);
 }
@@ -59,4 +59,4 @@ void draw_path_lines(ViewerModel& model, const Rect& image) {
     out.PopClipRect();
 }
 
-}  // namespace pl
+}  // namespace pl::ui

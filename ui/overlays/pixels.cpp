@@ -9,7 +9,7 @@
 #include "ui/draw/widgets.h"
 #include "ui/overlays/overlays.h"
 
-namespace pl {
+namespace pl::ui {
 namespace {
 
 constexpr float kSmallTextShare = 0.75f;  ///< height of the numbers in small pixels, of the font's
@@ -119,4 +119,4 @@ void draw_pixels(ViewerModel& model, const Layout& layout, const Rect& image, co
                     [&](PixelPosition at) { return value_of(frame, at); });
 }
 
-}  // namespace pl
+}  // namespace pl::ui

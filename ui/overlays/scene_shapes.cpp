@@ -6,7 +6,7 @@
 #include "core/kernel/geometry/intersector.h"
 #include "ui/draw/style.h"
 
-namespace pl {
+namespace pl::ui {
 namespace {
 
 constexpr float kLobeShare = 0.09f;  ///< of the scene's diagonal: the longest of the shown lobes
@@ -127,4 +127,4 @@ void draw_mesh(ImDrawList& out, const ScreenMesh& mesh) {
     }
 }
 
-}  // namespace pl
+}  // namespace pl::ui

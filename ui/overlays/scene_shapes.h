@@ -8,7 +8,7 @@
 #include "ui/draw/path_lines.h"
 #include "ui/model/shown_volumes.h"
 
-namespace pl {
+namespace pl::ui {
 
 /// Of all lobes, or domes, together: colors by `range`, lengths by density.
 struct ShapeScale {
@@ -29,8 +29,8 @@ void draw_shapes(ImDrawList& out, const PublishedFrame& frame, const Projection&
 
 /// Paths as lines, with the numbers of one path's vertices; null for none.
 void draw_strokes(ImDrawList& out, std::span<const PathPiece> pieces, const Projection& projection,
-                  const PathRecord* numbered);
+                  const diagnose::PathRecord* numbered);
 
 void draw_mesh(ImDrawList& out, const ScreenMesh& mesh);
 
-}  // namespace pl
+}  // namespace pl::ui

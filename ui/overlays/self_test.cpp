@@ -7,7 +7,7 @@
 #include "ui/overlays/dialog.h"
 #include "ui/overlays/overlays.h"
 
-namespace pl {
+namespace pl::ui {
 namespace {
 
 std::string margin_text(const SelfCheck& check) {
@@ -83,4 +83,4 @@ void draw_self_test(ViewerModel& model, const Layout& layout) {
     ImGui::End();
 }
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -2,7 +2,7 @@
 #include "ui/draw/widgets.h"
 #include "ui/overlays/overlays.h"
 
-namespace pl {
+namespace pl::ui {
 
 void draw_show_panels(ViewerModel& model) {
     constexpr float kShownSeconds = 2.0f;
@@ -17,4 +17,4 @@ void draw_show_panels(ViewerModel& model) {
     ImGui::End();
 }
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -5,7 +5,7 @@
 #include "ui/draw/style.h"
 #include "ui/overlays/overlays.h"
 
-namespace pl {
+namespace pl::ui {
 namespace {
 
 ImU32 stripe_of(MessageLevel level) {
@@ -50,4 +50,4 @@ void draw_toasts(const ViewerModel& model, const Layout& layout, const ComparePl
                MessageLevel::Info, text);
 }
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -8,7 +8,7 @@
 #include "ui/input/perform_action.h"
 #include "ui/overlays/overlays.h"
 
-namespace pl {
+namespace pl::ui {
 namespace {
 
 using Phase = GuidedTour::Phase;
@@ -112,4 +112,4 @@ void draw_tour(ViewerModel& model, const Layout& layout, const Rect& image) {
     note_place("tour", {corner.x, corner.y, size.x, size.y});
 }
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -9,7 +9,7 @@
 #include "ui/plot/draw_run_table.h"
 #include "ui/plot/plot_widget.h"
 
-namespace pl {
+namespace pl::ui {
 namespace {
 
 constexpr float kPlotEm = 18.0f;
@@ -199,4 +199,4 @@ void draw_accuracy_panel(ViewerModel& model, const Layout& layout) {
     ImGui::End();
 }
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -5,7 +5,7 @@
 #include "ui/draw/widgets.h"
 #include "ui/panels/panels.h"
 
-namespace pl {
+namespace pl::ui {
 namespace {
 
 constexpr float kArrowEm = 3.0f;  ///< length of the part that folds
@@ -153,4 +153,4 @@ void draw_borders(ViewerModel& model, const Layout& layout) {
     draw_accuracy_border(model, layout);
 }
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -9,7 +9,7 @@
 #include "ui/model/thumbnail.h"
 #include "ui/panels/panels.h"
 
-namespace pl {
+namespace pl::ui {
 namespace {
 
 struct BookmarkEdit {
@@ -119,4 +119,4 @@ void draw_cameras(ViewerModel& model) {
     draw_sequence(model);
 }
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -6,7 +6,7 @@
 #include "core/kernel/guiding/direction_cells.h"
 #include "ui/draw/value_text.h"
 
-namespace pl {
+namespace pl::ui {
 namespace {
 
 constexpr ImU32 kInk = IM_COL32(255, 255, 255, 255);
@@ -85,4 +85,4 @@ void draw_legend(ImDrawList& list, const Rect& place, const ValueRange& range) {
     }
 }
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -7,7 +7,7 @@
 #include "ui/draw/direction_disc.h"
 #include "ui/draw/widgets.h"
 
-namespace pl {
+namespace pl::ui {
 
 /// The unit disk in the window: x to the right, y up.
 struct DiscPlace {
@@ -40,4 +40,4 @@ inline constexpr float kLegendEm = 5.2f;
 /// Colors of a range from bottom to top, with values of three digits, in a rectangle kLegendEm wide.
 void draw_legend(ImDrawList& list, const Rect& place, const ValueRange& range);
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -4,7 +4,7 @@
 #include "ui/draw/widgets.h"
 #include "ui/panels/panels.h"
 
-namespace pl {
+namespace pl::ui {
 namespace {
 
 /// With spaces for line breaks between effects.
@@ -31,4 +31,4 @@ void draw_effects_tab(const ViewerModel& model) {
                  row.needed() ? colors::kAccent : colors::kFaint);
 }
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -7,7 +7,7 @@
 #include "ui/draw/widgets.h"
 #include "ui/model/shown_volumes.h"
 
-namespace pl {
+namespace pl::ui {
 namespace {
 
 constexpr float kCurveEm = 4.2f;
@@ -167,4 +167,4 @@ void draw_time(ViewerModel& model, const VolumeInspection& shown) {
              "and the share of probability that moved.");
 }
 
-}  // namespace pl
+}  // namespace pl::ui

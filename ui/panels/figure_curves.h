@@ -3,7 +3,7 @@
 
 #include "ui/model/viewer_model.h"
 
-namespace pl {
+namespace pl::ui {
 
 /// Divergences of table and paths, and below them the variance factor, over the passes that trained the field. `shown`: passes of
 /// the time that is shown, 0 for now.
@@ -21,4 +21,4 @@ void draw_memory(LearningTime& time);
 /// The slider through the past, and the difference of the shown time to now; nothing where none is kept.
 void draw_time(ViewerModel& model, const VolumeInspection& shown);
 
-}  // namespace pl
+}  // namespace pl::ui

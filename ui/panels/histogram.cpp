@@ -8,7 +8,7 @@
 #include "ui/draw/widgets.h"
 #include "ui/panels/panels.h"
 
-namespace pl {
+namespace pl::ui {
 namespace {
 
 using Histogram = LuminanceHistogram;
@@ -116,4 +116,4 @@ void draw_auto_exposure(ViewerModel& model) {
         model.exposure().set_on(is_on);
 }
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -10,7 +10,7 @@
 #include "ui/draw/widgets.h"
 #include "ui/panels/panels.h"
 
-namespace pl {
+namespace pl::ui {
 namespace {
 
 ImU32 color_of(MessageLevel level) {
@@ -166,4 +166,4 @@ void draw_knowledge_panel(ViewerModel& model, const Layout& layout, const std::o
     ImGui::End();
 }
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -9,7 +9,7 @@
 #include "ui/draw/words.h"
 #include "ui/panels/panels.h"
 
-namespace pl {
+namespace pl::ui {
 namespace {
 
 /// Refinement of the placement. Every change restarts pictures and fields.
@@ -124,4 +124,4 @@ void draw_learning_section(ViewerModel& model) {
     if (wide_button("Forget the learned field", "Ctrl+Shift+R: clears pictures and fields.")) model.render().forget();
 }
 
-}  // namespace pl
+}  // namespace pl::ui

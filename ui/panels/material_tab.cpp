@@ -7,7 +7,7 @@
 #include "ui/draw/widgets.h"
 #include "ui/panels/panels.h"
 
-namespace pl {
+namespace pl::ui {
 namespace {
 
 /// Most of a value without bounds that a slider reaches, unless the file has more.
@@ -155,4 +155,4 @@ void draw_material_tab(ViewerModel& model) {
     draw_restore(model, index);
 }
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -6,7 +6,7 @@
 #include "ui/input/perform_action.h"
 #include "ui/panels/panels.h"
 
-namespace pl {
+namespace pl::ui {
 namespace {
 
 void draw_recent_menu(ViewerModel& model) {
@@ -59,4 +59,4 @@ void draw_menu_bar(ViewerModel& model, const Layout& layout) {
     ImGui::End();
 }
 
-}  // namespace pl
+}  // namespace pl::ui

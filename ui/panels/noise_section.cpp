@@ -5,7 +5,7 @@
 #include "ui/draw/widgets.h"
 #include "ui/panels/panels.h"
 
-namespace pl {
+namespace pl::ui {
 namespace {
 
 /// The half width of an interval.
@@ -21,7 +21,7 @@ bool has_part(const Interval& share) { return share.value != 0.0 || spread(share
 
 /// One row for a part that has a share by either method.
 template <class Share>
-void draw_part(const PixelNoise& noise, const std::string& name, Share share) {
+void draw_part(const diagnose::PixelNoise& noise, const std::string& name, Share share) {
     const Interval none{};
     const Interval plain = noise.plain.shares ? share(*noise.plain.shares) : none;
     const Interval guided = noise.guided && noise.guided->shares ? share(*noise.guided->shares) : none;
@@ -38,40 +38,43 @@ void draw_noise_heading(const char* name) {
 }
 
 template <class Figure>
-void draw_figure(const PixelNoise& noise, const char* name, Figure figure) {
+void draw_figure(const diagnose::PixelNoise& noise, const char* name, Figure figure) {
     ImGui::TableNextRow();
     text_cell(name, colors::kFaint);
     text_cell(figure(noise.plain));
     if (noise.guided) text_cell(figure(*noise.guided));
 }
 
-void draw_shares(const PixelNoise& noise) {
+void draw_shares(const diagnose::PixelNoise& noise) {
     constexpr ImGuiTableFlags kFlags = ImGuiTableFlags_SizingStretchProp | ImGuiTableFlags_RowBg;
     if (!ImGui::BeginTable("noise", noise.guided ? 3 : 2, kFlags)) return;
     ImGui::TableSetupColumn("share of the noise");
     ImGui::TableSetupColumn("default");
     if (noise.guided) ImGui::TableSetupColumn(std::string(info_of(noise.guided_method).name).c_str());
     ImGui::TableHeadersRow();
-    for (const FoundByInfo& info : all_found_by())
-        draw_part(noise, std::string(info.label),
-                  [&](const NoiseShares& shares) { return shares.found_by[static_cast<std::size_t>(info.id)]; });
+    for (const diagnose::FoundByInfo& info : diagnose::all_found_by())
+        draw_part(noise, std::string(info.label), [&](const diagnose::NoiseShares& shares) {
+            return shares.found_by[static_cast<std::size_t>(info.id)];
+        });
     draw_noise_heading("by bounces");
-    for (std::size_t i = 0; i < kBounceClasses; ++i)
-        draw_part(noise, i + 1 < kBounceClasses ? fmt::format("{}", i) : fmt::format("{} or more", i),
-                  [&](const NoiseShares& shares) { return shares.bounces[i]; });
+    for (std::size_t i = 0; i < diagnose::kBounceClasses; ++i)
+        draw_part(noise, i + 1 < diagnose::kBounceClasses ? fmt::format("{}", i) : fmt::format("{} or more", i),
+                  [&](const diagnose::NoiseShares& shares) { return shares.bounces[i]; });
     draw_noise_heading("by light");
     for (std::size_t i = 0; i < 2; ++i)
         draw_part(noise, i == 0 ? "surfaces" : "environment",
-                  [&](const NoiseShares& shares) { return shares.lights[i]; });
+                  [&](const diagnose::NoiseShares& shares) { return shares.lights[i]; });
     draw_noise_heading("of one path");
-    draw_figure(noise, "luminance", [](const PixelEstimate& e) { return fmt::format("{:.3g}", e.mean.value); });
-    draw_figure(noise, "variance", [](const PixelEstimate& e) { return fmt::format("{:.3g}", e.variance.value); });
-    draw_figure(noise, "time", [](const PixelEstimate& e) { return short_seconds(e.seconds_per_path); });
+    draw_figure(noise, "luminance",
+                [](const diagnose::PixelEstimate& e) { return fmt::format("{:.3g}", e.mean.value); });
+    draw_figure(noise, "variance",
+                [](const diagnose::PixelEstimate& e) { return fmt::format("{:.3g}", e.variance.value); });
+    draw_figure(noise, "time", [](const diagnose::PixelEstimate& e) { return short_seconds(e.seconds_per_path); });
     ImGui::EndTable();
 }
 
 /// In one line, in the color of its mark.
-void draw_pixel_gain(const PixelNoise& noise) {
+void draw_pixel_gain(const diagnose::PixelNoise& noise) {
     if (!noise.guided) {
         faint_text(
             fmt::format("No method has learned a field: press {} to compare one.", info_of(learning_method()).key)
@@ -98,7 +101,7 @@ void draw_noise_section(PathExplorer& explorer) {
     NoiseTracing& tracing = explorer.noise();
     tracing.show();
     if (!tracing.failure().empty()) text_line(tracing.failure().c_str(), colors::kError);
-    const PixelNoise* noise = tracing.noise();
+    const diagnose::PixelNoise* noise = tracing.noise();
     if (noise == nullptr) {
         faint_text("Tracing its first paths.");
         return;
@@ -113,4 +116,4 @@ void draw_noise_section(PathExplorer& explorer) {
             "makes up for others is negative. On a thread of low priority; its time is on no other clock.");
 }
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -6,7 +6,7 @@
 #include "ui/draw/layout.h"
 #include "ui/model/viewer_model.h"
 
-namespace pl {
+namespace pl::ui {
 
 /// The pixel under the pointer, for the pixel tab.
 struct HoveredPixel {
@@ -44,4 +44,4 @@ void draw_paths_tab(ViewerModel& model);
 void draw_noise_section(PathExplorer& explorer);
 void draw_log_tab(const ViewerModel& model);
 
-}  // namespace pl
+}  // namespace pl::ui

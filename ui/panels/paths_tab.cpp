@@ -7,7 +7,7 @@
 #include "ui/panels/disc_widget.h"
 #include "ui/panels/panels.h"
 
-namespace pl {
+namespace pl::ui {
 namespace {
 
 constexpr float kTableEm = 8.6f;
@@ -43,13 +43,13 @@ void draw_options(PathExplorer& explorer) {
     tooltip("To the visible lights of light samples; the selected path always has them.");
 }
 
-std::string light_text(const std::vector<PathRecord>& paths, std::size_t i) {
-    return i < paths.size() ? short_value(path_light(paths[i])) : "-";
+std::string light_text(const std::vector<diagnose::PathRecord>& paths, std::size_t i) {
+    return i < paths.size() ? short_value(diagnose::path_light(paths[i])) : "-";
 }
 
 /// One row for each pass, by the light of the listed method.
 void draw_table(PathExplorer& explorer) {
-    const PixelPaths& paths = *explorer.paths();
+    const diagnose::PixelPaths& paths = *explorer.paths();
     constexpr ImGuiTableFlags kFlags =
         ImGuiTableFlags_SizingStretchProp | ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg;
     const float width = ImGui::GetContentRegionAvail().x - em(kLegendEm);
@@ -60,7 +60,7 @@ void draw_table(PathExplorer& explorer) {
     ImGui::TableSetupColumn(paths.guided.empty() ? "guided" : guided_name(explorer).c_str());
     ImGui::TableSetupColumn("vertices");
     ImGui::TableHeadersRow();
-    for (const std::size_t i : by_light(explorer.listed())) {
+    for (const std::size_t i : diagnose::by_light(explorer.listed())) {
         ImGui::TableNextRow();
         ImGui::TableNextColumn();
         ImGui::PushID(static_cast<int>(i));
@@ -90,7 +90,7 @@ void draw_table_with_legend(PathExplorer& explorer) {
 
 std::string triple_text(Vec3f v) { return fmt::format("{:.3g}  {:.3g}  {:.3g}", v.x, v.y, v.z); }
 
-void draw_light(const VertexRecord& vertex) {
+void draw_light(const diagnose::VertexRecord& vertex) {
     if (!is_black(vertex.emission.radiance))
         text_row(
             "emission",
@@ -107,10 +107,10 @@ void draw_light(const VertexRecord& vertex) {
              "Of sampling the direction of the light, by either technique, per steradian.");
 }
 
-void draw_direction(const ScatterRecord& direction) {
+void draw_direction(const diagnose::ScatterRecord& direction) {
     text_row("direction", fmt::format("by {}", name_of(direction.technique)),
              "The technique that sampled it: BSDF, field, or a delta lobe.");
-    if (direction.technique != Technique::Delta)
+    if (direction.technique != diagnose::Technique::Delta)
         text_row("  densities",
                  fmt::format("{:.3g}: bsdf {:.3g}, field {:.3g}", direction.pdf_sa, direction.bsdf_pdf_sa,
                              direction.field_pdf_sa),
@@ -118,7 +118,7 @@ void draw_direction(const ScatterRecord& direction) {
     text_row("  throughput", triple_text(direction.throughput), "Of the path up to the next vertex.");
 }
 
-void draw_vertex(const VertexRecord& vertex, std::size_t index, const SceneDescription& scene) {
+void draw_vertex(const diagnose::VertexRecord& vertex, std::size_t index, const SceneDescription& scene) {
     const bool has_name = !vertex.is_escape && vertex.material < scene.materials.size();
     const std::string name = vertex.is_escape ? "leaves the scene"
                              : has_name       ? scene.materials[vertex.material].name
@@ -143,13 +143,13 @@ void draw_vertex(const VertexRecord& vertex, std::size_t index, const SceneDescr
     if (vertex.scattered) draw_direction(*vertex.scattered);
 }
 
-const char* meaning_of(PathEnd end) {
+const char* meaning_of(diagnose::PathEnd end) {
     switch (end) {
-    case PathEnd::Escaped: return "no surface is met";
-    case PathEnd::Absorbed: return "the surface reflects nothing";
-    case PathEnd::Roulette: return "Russian roulette";
-    case PathEnd::DepthLimit: return "the most vertices are reached";
-    case PathEnd::ZeroDirection: return "the sampled direction reflects nothing";
+    case diagnose::PathEnd::Escaped: return "no surface is met";
+    case diagnose::PathEnd::Absorbed: return "the surface reflects nothing";
+    case diagnose::PathEnd::Roulette: return "Russian roulette";
+    case diagnose::PathEnd::DepthLimit: return "the most vertices are reached";
+    case diagnose::PathEnd::ZeroDirection: return "the sampled direction reflects nothing";
     }
     return "";
 }
@@ -157,7 +157,7 @@ const char* meaning_of(PathEnd end) {
 void draw_path(const PathExplorer& explorer, const SceneDescription& scene) {
     const std::optional<std::size_t> selected = explorer.selected();
     if (!selected) return;
-    const PathRecord& path = explorer.listed()[*selected];
+    const diagnose::PathRecord& path = explorer.listed()[*selected];
     const std::string method = explorer.lists_guided() ? guided_name(explorer) : std::string("default");
     ImGui::Text("Sample %u by %s%s", explorer.paths()->passes[*selected], method.c_str(),
                 explorer.lists_guided() && !path.is_guided ? ", not guided" : "");
@@ -184,7 +184,7 @@ void draw_paths_tab(ViewerModel& model) {
         faint_text(explorer.is_tracing() ? "Tracing." : "Click a pixel in the picture.");
         return;
     }
-    const PixelPaths& paths = *explorer.paths();
+    const diagnose::PixelPaths& paths = *explorer.paths();
     text_row(
         "Pixel",
         fmt::format("{}, {}: {} of {} samples{}", explorer.x(), explorer.y(), paths.passes.size(), paths.searched,
@@ -196,4 +196,4 @@ void draw_paths_tab(ViewerModel& model) {
     draw_path(explorer, *model.frame()->description);
 }
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -8,7 +8,7 @@
 #include "ui/input/perform_action.h"
 #include "ui/panels/panels.h"
 
-namespace pl {
+namespace pl::ui {
 namespace {
 
 /// Only for scenes with knobs.
@@ -269,4 +269,4 @@ void draw_settings_panel(ViewerModel& model, const Layout& layout) {
     ImGui::End();
 }
 
-}  // namespace pl
+}  // namespace pl::ui

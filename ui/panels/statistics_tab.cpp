@@ -5,7 +5,7 @@
 #include "ui/draw/widgets.h"
 #include "ui/panels/panels.h"
 
-namespace pl {
+namespace pl::ui {
 namespace {
 
 std::string count_text(std::uint64_t count) { return short_number(static_cast<double>(count)); }
@@ -130,4 +130,4 @@ void draw_statistics_tab(const ViewerModel& model) {
     draw_scene(*frame, model);
 }
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -7,7 +7,7 @@
 #include "ui/draw/words.h"
 #include "ui/panels/panels.h"
 
-namespace pl {
+namespace pl::ui {
 namespace {
 
 /// Items in one line with bars between them.
@@ -43,10 +43,10 @@ void draw_counts(StatusLine& line, const ViewerModel& model) {
 /// Counts of invalid samples, lost paths, lookup misses and clamped training samples; a click marks their pixels.
 void draw_diagnostics(StatusLine& line, ViewerModel& model) {
     if (model.frame() == nullptr) return;
-    const DiagnosticCounts counts = counted_diagnostics(model.frame()->snapshot);
+    const diagnose::DiagnosticCounts counts = diagnose::counted_diagnostics(model.frame()->snapshot);
     bool is_clicked = false;
     bool is_valid = true;
-    for (const DiagnosticInfo& diagnostics : all_diagnostics()) {
+    for (const diagnose::DiagnosticInfo& diagnostics : diagnose::all_diagnostics()) {
         const std::uint64_t count = counts[static_cast<std::size_t>(diagnostics.id)];
         if (count == 0) continue;
         is_valid = false;
@@ -116,4 +116,4 @@ void draw_status_bar(ViewerModel& model, const Layout& layout) {
     ImGui::End();
 }
 
-}  // namespace pl
+}  // namespace pl::ui

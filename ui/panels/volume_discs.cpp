@@ -8,7 +8,7 @@
 #include "ui/model/shown_volumes.h"
 #include "ui/panels/disc_widget.h"
 
-namespace pl {
+namespace pl::ui {
 namespace {
 
 constexpr float kLargestDiscEm = 19.0f;
@@ -120,4 +120,4 @@ void draw_volume_discs(ViewerModel& model, const VolumeInspection& volume) {
     if (cell >= 0) draw_cell_tooltip(volume, discs, cell, direction);
 }
 
-}  // namespace pl
+}  // namespace pl::ui

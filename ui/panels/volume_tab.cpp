@@ -10,7 +10,7 @@
 #include "ui/panels/panels.h"
 #include "ui/panels/volume_discs.h"
 
-namespace pl {
+namespace pl::ui {
 namespace {
 
 void draw_choices(CellDisplay& display) {
@@ -171,4 +171,4 @@ void draw_volume_tab(ViewerModel& model) {
     draw_summary(*volume);
 }
 
-}  // namespace pl
+}  // namespace pl::ui

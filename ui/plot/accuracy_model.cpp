@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace pl {
+namespace pl::ui {
 namespace {
 
 bool is_measured(RunList runs, std::uint64_t picture, ErrorMetric metric) {
@@ -106,4 +106,4 @@ void AccuracyModel::make_lines() {
     }
 }
 
-}  // namespace pl
+}  // namespace pl::ui

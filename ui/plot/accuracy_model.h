@@ -10,7 +10,7 @@
 #include "ui/plot/plot_lines.h"
 #include "ui/plot/run_table.h"
 
-namespace pl {
+namespace pl::ui {
 
 class AccuracyModel {
 public:
@@ -68,4 +68,4 @@ private:
     bool view_kept_ = false;
 };
 
-}  // namespace pl
+}  // namespace pl::ui

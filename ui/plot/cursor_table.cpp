@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-namespace pl {
+namespace pl::ui {
 namespace {
 
 CursorRow row_at_cost(const LiveRun& run, const CurveKind& kind, double cost) {
@@ -93,4 +93,4 @@ std::optional<std::size_t> point_at(const LiveRun& run, const CurveKind& kind, c
     return nearest_kept(run, kind, cursor);
 }
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -6,7 +6,7 @@
 
 #include "ui/plot/run_lines.h"
 
-namespace pl {
+namespace pl::ui {
 
 /// A draggable line across the plot.
 struct Cursor {
@@ -39,4 +39,4 @@ std::vector<CursorRow> cursor_rows(RunList runs, std::uint64_t picture, const Cu
 /// Empty before the first point, beyond the end of the run, or without such a picture.
 std::optional<std::size_t> point_at(const LiveRun& run, const CurveKind& kind, const Cursor& cursor);
 
-}  // namespace pl
+}  // namespace pl::ui

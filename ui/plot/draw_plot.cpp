@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-namespace pl {
+namespace pl::ui {
 namespace {
 
 constexpr ImU32 kGround = IM_COL32(16, 18, 22, 255);
@@ -175,4 +175,4 @@ void draw_sample(ImDrawList& list, const PlotLine& line, ImVec2 left, float widt
     draw_marker(list, 0.5f * (ends[0] + ends[1]), color, line.marker);
 }
 
-}  // namespace pl
+}  // namespace pl::ui

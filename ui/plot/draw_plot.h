@@ -7,7 +7,7 @@
 #include "ui/plot/cursor_table.h"
 #include "ui/plot/plot_lines.h"
 
-namespace pl {
+namespace pl::ui {
 
 struct PlotStyle {
     std::string x_title;
@@ -26,4 +26,4 @@ void draw_cursor_line(ImDrawList& list, const Rect& frame, const PlotView& view,
 /// The sample of a line in the legend.
 void draw_sample(ImDrawList& list, const PlotLine& line, ImVec2 left, float width);
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -11,7 +11,7 @@
 #include "ui/plot/draw_plot.h"
 #include "ui/plot/plot_widget.h"
 
-namespace pl {
+namespace pl::ui {
 namespace {
 
 constexpr float kSampleEm = 1.2f;
@@ -157,4 +157,4 @@ void draw_other_runs(AccuracyModel& model) {
     draw_legend(model, [&](const PlotLine& line) { return !has_row(model, line.run); });
 }
 
-}  // namespace pl
+}  // namespace pl::ui

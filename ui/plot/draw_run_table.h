@@ -3,7 +3,7 @@
 
 #include "ui/plot/accuracy_model.h"
 
-namespace pl {
+namespace pl::ui {
 
 /// One row for each run of RunTable::rows, with the sample of its line: a click hides or shows the run. Columns in which
 /// all runs are on the CPU, or cold, are left out. Below, the table's note.
@@ -12,4 +12,4 @@ void draw_run_table(AccuracyModel& model);
 /// Runs without a row: older ones and those of other pictures, folded away at first. Nothing without any.
 void draw_other_runs(AccuracyModel& model);
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -6,7 +6,7 @@
 
 #include "ui/draw/draw_list.h"
 
-namespace pl {
+namespace pl::ui {
 
 enum class PlotDrag { None, Pan, EqualCost, EqualError };
 
@@ -28,4 +28,4 @@ inline PlotDrag drag_at(Vec2f pointer, const Rect& frame, std::optional<float> c
     return PlotDrag::None;
 }
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace pl {
+namespace pl::ui {
 namespace {
 
 /// Appends the lowest and the highest point of a stretch, in their order.
@@ -102,4 +102,4 @@ std::vector<Vec2f> dashes(std::span<const Vec2f> line, float on, float off) {
     return pieces;
 }
 
-}  // namespace pl
+}  // namespace pl::ui

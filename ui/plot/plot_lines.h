@@ -8,7 +8,7 @@
 #include "ui/plot/plot_view.h"
 #include "ui/plot/run_lines.h"
 
-namespace pl {
+namespace pl::ui {
 
 struct LinePoint {
     PlotValue value;
@@ -51,4 +51,4 @@ std::optional<PlotHit> nearest_point(std::span<const PlotLine> lines, const Plot
 /// A dashed line: pieces of `on` pixels with gaps of `off` pixels, both positive, as pairs of points.
 std::vector<Vec2f> dashes(std::span<const Vec2f> line, float on, float off);
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace pl {
+namespace pl::ui {
 namespace {
 
 constexpr double kZoomStep = 1.2;        ///< factor of a span in decades per notch
@@ -115,4 +115,4 @@ PlotRange fit_range(std::span<const PlotValue> values) {
     return {x.low, x.high, y.low, y.high};
 }
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -6,7 +6,7 @@
 #include "core/plot/log_axis.h"
 #include "ui/draw/draw_list.h"
 
-namespace pl {
+namespace pl::ui {
 
 /// Bounds of both axes, positive.
 struct PlotRange {
@@ -57,4 +57,4 @@ private:
 /// while curves grow. Two decades around 1 without values.
 PlotRange fit_range(std::span<const PlotValue> values);
 
-}  // namespace pl
+}  // namespace pl::ui

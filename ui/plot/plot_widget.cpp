@@ -8,7 +8,7 @@
 #include "ui/draw/widgets.h"
 #include "ui/plot/draw_plot.h"
 
-namespace pl {
+namespace pl::ui {
 namespace {
 
 constexpr float kHoverPixels = 14.0f;
@@ -148,4 +148,4 @@ void draw_legend(AccuracyModel& model, const std::function<bool(const PlotLine&)
     if (clicked != 0) model.toggle_hidden(clicked);
 }
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-namespace pl {
+namespace pl::ui {
 namespace {
 
 constexpr double kFewestSamples = 8.0;       ///< fewer are too few to estimate a pixel's noise
@@ -170,4 +170,4 @@ std::optional<RunGain> gain_of_run(RunList runs, const LiveRun& base, const Live
     return std::nullopt;
 }
 
-}  // namespace pl
+}  // namespace pl::ui

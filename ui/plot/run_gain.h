@@ -9,7 +9,7 @@
 #include "core/measure/gain.h"
 #include "ui/plot/run_lines.h"
 
-namespace pl {
+namespace pl::ui {
 
 /// The spread that a 95 % interval is made of.
 enum class IntervalSource {
@@ -37,4 +37,4 @@ std::vector<std::shared_ptr<const LiveRun>> repetitions_of(RunList runs, const L
 /// each. Repetitions that have too few samples at their ends do not count; empty if no other is left on a side.
 std::optional<RunGain> gain_of_run(RunList runs, const LiveRun& base, const LiveRun& run);
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-namespace pl {
+namespace pl::ui {
 namespace {
 
 constexpr std::array<ErrorMetricInfo, kErrorMetricCount> kMetrics{{
@@ -98,4 +98,4 @@ std::shared_ptr<const LiveRun> base_of(RunList runs, const LiveRun& run) {
     return best && best->number != run.number ? best : nullptr;
 }
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -8,7 +8,7 @@
 
 #include "core/measure/live_runs.h"
 
-namespace pl {
+namespace pl::ui {
 
 /// The error on the vertical axis. All but Noise need a reference.
 enum class ErrorMetric { RelMse, RelMseTrimmed, Mse, Smape, Noise };
@@ -69,4 +69,4 @@ std::shared_ptr<const LiveRun> find_run(RunList runs, std::uint64_t number);
 /// sampling and on the same back end; else the newest. Null without one, and for that run itself.
 std::shared_ptr<const LiveRun> base_of(RunList runs, const LiveRun& run);
 
-}  // namespace pl
+}  // namespace pl::ui

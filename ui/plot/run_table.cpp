@@ -7,7 +7,7 @@
 
 #include "ui/draw/method_keys.h"
 
-namespace pl {
+namespace pl::ui {
 namespace {
 
 using Run = std::shared_ptr<const LiveRun>;
@@ -136,4 +136,4 @@ std::string interval_text(const RunRow& row) {
     return fmt::format("{}-{}", ratio_text(row.gain->net.low), ratio_text(row.gain->net.high));
 }
 
-}  // namespace pl
+}  // namespace pl::ui

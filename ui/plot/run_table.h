@@ -7,7 +7,7 @@
 
 #include "ui/plot/run_gain.h"
 
-namespace pl {
+namespace pl::ui {
 
 /// The reason why a run has no gain.
 enum class MissingGain { None, IsBase, TooFewSamples, NoBase };
@@ -40,4 +40,4 @@ std::string gain_text(const RunRow& row);
 /// "1.5-1.9": the 95 % interval of the factor; empty without one.
 std::string interval_text(const RunRow& row);
 
-}  // namespace pl
+}  // namespace pl::ui

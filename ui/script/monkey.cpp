@@ -6,7 +6,7 @@
 #include <SDL_mouse.h>
 #include <SDL_scancode.h>
 
-namespace pl {
+namespace pl::ui {
 namespace {
 
 using Kind = ScriptCommand::Kind;
@@ -153,4 +153,4 @@ std::optional<ScriptCommand> Monkey::next(Vec2f window, const Places& places) {
     return command;
 }
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -12,7 +12,7 @@
 #include "ui/draw/layout.h"
 #include "ui/script/script.h"
 
-namespace pl {
+namespace pl::ui {
 
 class Monkey {
 public:
@@ -45,4 +45,4 @@ private:
     std::vector<KeyStroke> held_;
 };
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-namespace pl {
+namespace pl::ui {
 namespace {
 
 /// "12,34: 32 of 40", "none".
@@ -18,7 +18,7 @@ std::string traced_paths(const ViewerModel& model) {
 
 /// "gains", "none".
 std::string pixel_mark(const ViewerModel& model) {
-    const PixelNoise* const noise = model.paths().noise().noise();
+    const diagnose::PixelNoise* const noise = model.paths().noise().noise();
     return noise != nullptr && noise->gain ? std::string(mark_name(verdict_of(noise->gain->net))) : "none";
 }
 
@@ -67,7 +67,7 @@ constexpr std::array kOverlayValues{
     ScriptValue{"path_lines", [](const ViewerModel& m) { return fmt::format("{}", m.paths().times_made()); }},
     ScriptValue{"noise_paths",
                 [](const ViewerModel& m) {
-                    const PixelNoise* const noise = m.paths().noise().noise();
+                    const diagnose::PixelNoise* const noise = m.paths().noise().noise();
                     return fmt::format("{}", noise != nullptr ? noise->plain.paths : 0);
                 }},
     ScriptValue{"pixel_mark", pixel_mark},
@@ -83,4 +83,4 @@ constexpr std::array kOverlayValues{
 
 std::span<const ScriptValue> overlay_values() { return kOverlayValues; }
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -7,7 +7,7 @@
 
 #include "ui/model/viewer_model.h"
 
-namespace pl {
+namespace pl::ui {
 
 /// A value by name, as a word or number.
 struct ScriptValue {
@@ -17,4 +17,4 @@ struct ScriptValue {
 
 std::span<const ScriptValue> overlay_values();
 
-}  // namespace pl
+}  // namespace pl::ui

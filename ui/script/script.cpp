@@ -15,7 +15,7 @@
 #include "core/base/error.h"
 #include "ui/script/script_values.h"
 
-namespace pl {
+namespace pl::ui {
 namespace {
 
 using Kind = ScriptCommand::Kind;
@@ -261,4 +261,4 @@ std::vector<ScriptCommand> load_script(const std::filesystem::path& path) {
     return parse_script(text.str(), path.string());
 }
 
-}  // namespace pl
+}  // namespace pl::ui

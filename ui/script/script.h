@@ -21,7 +21,7 @@
 
 #include "ui/input/actions.h"
 
-namespace pl {
+namespace pl::ui {
 
 struct ScriptCondition {
     std::string name;
@@ -71,4 +71,4 @@ struct ScriptCommand {
 std::vector<ScriptCommand> parse_script(std::string_view text, const std::string& file_name);
 std::vector<ScriptCommand> load_script(const std::filesystem::path& path);
 
-}  // namespace pl
+}  // namespace pl::ui

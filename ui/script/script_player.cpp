@@ -12,7 +12,7 @@
 #include "ui/model/viewer_model.h"
 #include "ui/script/script_values.h"
 
-namespace pl {
+namespace pl::ui {
 namespace {
 
 using Kind = ScriptCommand::Kind;
@@ -212,4 +212,4 @@ void ScriptPlayer::push_key(const KeyStroke& key, bool down) {
     SDL_PushEvent(&event);
 }
 
-}  // namespace pl
+}  // namespace pl::ui

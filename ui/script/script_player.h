@@ -12,7 +12,7 @@
 
 struct SDL_Window;
 
-namespace pl {
+namespace pl::ui {
 
 class ViewerModel;
 
@@ -71,4 +71,4 @@ private:
     unsigned int buttons_ = 0;
 };
 
-}  // namespace pl
+}  // namespace pl::ui

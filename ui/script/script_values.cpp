@@ -11,7 +11,7 @@
 #include "ui/model/window_memory.h"
 #include "ui/script/overlay_values.h"
 
-namespace pl {
+namespace pl::ui {
 namespace {
 
 using Value = ScriptValue;
@@ -307,4 +307,4 @@ std::string script_value(const ViewerModel& model, std::string_view name) {
     return value != nullptr ? value->read(model) : "";
 }
 
-}  // namespace pl
+}  // namespace pl::ui

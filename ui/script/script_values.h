@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-namespace pl {
+namespace pl::ui {
 
 class ViewerModel;
 
@@ -14,4 +14,4 @@ std::string script_value_names();
 /// The present value. The name must be a known one.
 std::string script_value(const ViewerModel& model, std::string_view name);
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -7,7 +7,7 @@
 
 #include "core/base/error.h"
 
-namespace pl {
+namespace pl::ui {
 namespace {
 
 std::string statistics(const std::vector<double>& sample) {
@@ -100,4 +100,4 @@ std::string UiTrace::finish() {
            line_of("input to picture", picture_ms_) + line_of("switch of back ends", switch_ms_);
 }
 
-}  // namespace pl
+}  // namespace pl::ui

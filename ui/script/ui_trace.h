@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace pl {
+namespace pl::ui {
 
 /// Value below which this share of the sample lies, by linear interpolation between ranks; 0 for an empty sample.
 double percentile(std::vector<double> sample, double share);
@@ -63,4 +63,4 @@ private:
     std::uint64_t frames_ = 0;
 };
 
-}  // namespace pl
+}  // namespace pl::ui

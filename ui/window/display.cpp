@@ -11,7 +11,7 @@
 #include "ui/window/icon.h"
 #include "ui/window/offscreen.h"
 
-namespace pl {
+namespace pl::ui {
 namespace {
 
 bool is_set(const char* variable) {
@@ -170,6 +170,6 @@ std::optional<WindowPlace> Display::place(const std::optional<WindowPlace>& befo
     return now;
 }
 
-ScreenPixels Display::read_pixels() const { return pl::read_pixels(renderer_); }
+ScreenPixels Display::read_pixels() const { return ui::read_pixels(renderer_); }
 
-}  // namespace pl
+}  // namespace pl::ui

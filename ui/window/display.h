@@ -9,7 +9,7 @@
 struct SDL_Window;
 struct SDL_Renderer;
 
-namespace pl {
+namespace pl::ui {
 
 /// Keeps SDL's video subsystem running. Throws Error(Unavailable) with one line on machines without a screen, unless
 /// SDL_VIDEODRIVER names a driver that needs none. The check uses the connection that the window uses afterwards: an X
@@ -65,4 +65,4 @@ private:
     bool software_ = false;
 };
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -1,6 +1,6 @@
 #include "ui/window/draw_interface.h"
 
-namespace pl {
+namespace pl::ui {
 
 void draw_interface(ViewerModel& model, const Layout& layout, const Rect& image, const ComparePlan& plan,
                     const std::optional<HoveredPixel>& hovered, const Magnifier* magnifier) {
@@ -27,4 +27,4 @@ void draw_interface(ViewerModel& model, const Layout& layout, const Rect& image,
     draw_help(model, layout);
 }
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-namespace pl {
+namespace pl::ui {
 
 double FramePacing::sleep_seconds(double now, const WindowActivity& activity) {
     idle_ = !activity.is_scripted && now > settle_until_ && !activity.has_input && !activity.is_working &&
@@ -29,4 +29,4 @@ double FramePacing::end(double now) {
     return interval;
 }
 
-}  // namespace pl
+}  // namespace pl::ui

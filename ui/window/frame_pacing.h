@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-namespace pl {
+namespace pl::ui {
 
 /// Reasons for the window to stay awake.
 struct WindowActivity {
@@ -47,4 +47,4 @@ private:
     bool hidden_ = false;
 };
 
-}  // namespace pl
+}  // namespace pl::ui

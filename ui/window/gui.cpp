@@ -5,7 +5,7 @@
 #include "core/base/error.h"
 #include "ui/draw/style.h"
 
-namespace pl {
+namespace pl::ui {
 
 Gui::Gui(const Display& display, std::filesystem::path font, float ui_scale)
     : display_(display), font_(std::move(font)), draw_(display.renderer()), textures_(display.renderer()) {
@@ -63,4 +63,4 @@ void Gui::frame(double delta_seconds, const std::function<void()>& build) {
 
 void Gui::draw() { draw_.draw(*ImGui::GetDrawData()); }
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -10,7 +10,7 @@
 #include "ui/window/display.h"
 #include "ui/window/mouse_tracker.h"
 
-namespace pl {
+namespace pl::ui {
 
 class Gui {
 public:
@@ -38,4 +38,4 @@ private:
     GuiMemory memory_;
 };
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -6,7 +6,7 @@
 
 #include <SDL.h>
 
-namespace pl {
+namespace pl::ui {
 namespace {
 
 constexpr int kSize = 64;
@@ -43,4 +43,4 @@ void set_window_icon(SDL_Window* window) {
     SDL_FreeSurface(surface);
 }
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -3,8 +3,8 @@
 
 struct SDL_Window;
 
-namespace pl {
+namespace pl::ui {
 
 void set_window_icon(SDL_Window* window);
 
-}  // namespace pl
+}  // namespace pl::ui

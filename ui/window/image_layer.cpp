@@ -5,7 +5,7 @@
 #include "ui/draw/cell_tint.h"
 #include "ui/draw/picture.h"
 
-namespace pl {
+namespace pl::ui {
 
 Rect ImageLayer::place(const ViewerModel& model, const Rect& view) const {
     const RenderSettings settings = model.frame() != nullptr ? model.frame()->settings : model.render().settings();
@@ -37,7 +37,7 @@ void ImageLayer::fill(const ViewerModel& model, const Key& key) {
     if (key.selected != kNoVolume) overlay.outlined = cell_color(key.selected, cell_table_.view());
     texture_.fill([&](std::uint32_t* out, std::size_t pitch) {
         write_picture(frame.picture, overlay, out, pitch);
-        if (key.diagnostics) mark_diagnostics(*key.diagnostics, {out, pitch});
+        if (key.diagnostics) diagnose::mark_diagnostics(*key.diagnostics, {out, pitch});
     });
 }
 
@@ -55,4 +55,4 @@ void ImageLayer::draw(const ViewerModel& model, const Rect& image, const Rect& v
                   model.window().zoom.is_whole() ? Scaling::Smooth : Scaling::Nearest);
 }
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -8,7 +8,7 @@
 #include "ui/model/viewer_model.h"
 #include "ui/worker/cell_colors.h"
 
-namespace pl {
+namespace pl::ui {
 
 class ImageLayer {
 public:
@@ -28,7 +28,7 @@ private:
         std::uint64_t serial = 0;  ///< of the frame
         float opacity = 0.0f;
         std::int32_t selected = kNoVolume;
-        std::shared_ptr<const DiagnosticsMap> diagnostics{};
+        std::shared_ptr<const diagnose::DiagnosticsMap> diagnostics{};
         std::shared_ptr<const FieldKeyFrame> past{};  ///< shown in place of the present field
 
         friend bool operator==(const Key&, const Key&) = default;
@@ -45,4 +45,4 @@ private:
     std::shared_ptr<const FieldKeyFrame> tinted_at_;  ///< its time
 };
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -9,7 +9,7 @@
 
 #include "ui/draw/imgui_compat.h"
 
-namespace pl {
+namespace pl::ui {
 
 class MouseTracker {
 public:
@@ -54,4 +54,4 @@ private:
     std::array<bool, 3> pressed_{};
 };
 
-}  // namespace pl
+}  // namespace pl::ui

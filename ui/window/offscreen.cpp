@@ -5,7 +5,7 @@
 #include "core/base/error.h"
 #include "ui/draw/style.h"
 
-namespace pl {
+namespace pl::ui {
 namespace {
 
 [[noreturn]] void fail(ErrorKind kind, const char* what) {
@@ -76,4 +76,4 @@ ByteImage Offscreen::paint(const std::uint32_t* background, const std::function<
     return {.width = pixels.width, .height = pixels.height, .rgb = std::move(pixels.rgb)};
 }
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -13,7 +13,7 @@
 struct SDL_Renderer;
 struct SDL_Surface;
 
-namespace pl {
+namespace pl::ui {
 
 /// The pixels of a renderer's target. Throws Error(Runtime).
 ScreenPixels read_pixels(SDL_Renderer* renderer);
@@ -41,4 +41,4 @@ private:
     std::unique_ptr<ImGuiDraw> draw_;
 };
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace pl {
+namespace pl::ui {
 namespace {
 
 /// The window at scale 1.
@@ -70,4 +70,4 @@ WindowPlan plan_window(const WindowOptions& options, const Screen& screen) {
             .ui_scale = scale};
 }
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -6,7 +6,7 @@
 #include "ui/model/window_place.h"
 #include "ui/viewer.h"
 
-namespace pl {
+namespace pl::ui {
 
 /// The part of a screen that windows may cover.
 struct Screen {
@@ -41,4 +41,4 @@ WindowPlace place_on_screens(WindowPlace wanted, std::span<const ScreenArea> scr
 /// 1440 x 900 times the scale, or as much of it as fits the screen. A requested size is taken as it is.
 WindowPlan plan_window(const WindowOptions& options, const Screen& screen);
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -2,7 +2,7 @@
 
 #include "core/base/error.h"
 
-namespace pl {
+namespace pl::ui {
 
 PickAnswer answer_pick(Session& session, Vec2f image_point) {
     const RenderSettings& settings = session.settings();
@@ -26,7 +26,7 @@ LearnedAnswer answer_learned(const Session& session, MethodId method) {
 PathsAnswer answer_paths(const Session& session, FilmSlot slot, std::uint64_t generation) {
     PathsAnswer answer{.generation = generation};
     try {
-        answer.passes = std::make_shared<PassPair>(pass_pair(session, slot));
+        answer.passes = std::make_shared<diagnose::PassPair>(diagnose::pass_pair(session, slot));
     } catch (const std::exception& error) {
         answer.reason = error.what();
     }
@@ -46,11 +46,11 @@ GainAnswer answer_gain(const Session& session, FilmSlot slot) {
 DiagnosticsAnswer answer_diagnostics(const Session& session, FilmSlot slot, std::uint64_t generation) {
     DiagnosticsAnswer answer{.generation = generation};
     try {
-        answer.source = diagnostics_input(session, slot);
+        answer.source = diagnose::diagnostics_input(session, slot);
     } catch (const std::exception& error) {
         answer.reason = error.what();
     }
     return answer;
 }
 
-}  // namespace pl
+}  // namespace pl::ui

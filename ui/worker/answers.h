@@ -4,7 +4,7 @@
 #include "core/session/session.h"
 #include "ui/worker/published_frame.h"
 
-namespace pl {
+namespace pl::ui {
 
 /// The surface under a point of the image, in [0,1)^2 from the top left, with the volume that serves it.
 PickAnswer answer_pick(Session& session, Vec2f image_point);
@@ -18,4 +18,4 @@ GainAnswer answer_gain(const Session& session, FilmSlot slot);
 /// next pass fails, too.
 DiagnosticsAnswer answer_diagnostics(const Session& session, FilmSlot slot, std::uint64_t generation);
 
-}  // namespace pl
+}  // namespace pl::ui

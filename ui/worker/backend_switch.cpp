@@ -8,7 +8,7 @@
 #include "core/base/error.h"
 #include "core/session/backend_text.h"
 
-namespace pl {
+namespace pl::ui {
 namespace {
 
 bool has_learned(Session& session) {
@@ -142,4 +142,4 @@ void BackendSwitch::change_choice(const BackendChoice& changed) {
     choices_ = std::move(choices);
 }
 
-}  // namespace pl
+}  // namespace pl::ui

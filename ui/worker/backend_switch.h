@@ -13,7 +13,7 @@
 #include "core/session/session.h"
 #include "ui/worker/published_frame.h"
 
-namespace pl {
+namespace pl::ui {
 
 class BackendSwitch {
 public:
@@ -64,4 +64,4 @@ std::string back_end_label(const std::string& name);
 /// The text of an error without the name of the back end, which some errors begin with.
 std::string reason_of(const std::exception& error, const std::string& backend);
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -1,6 +1,6 @@
 #include "ui/worker/cell_colors.h"
 
-namespace pl {
+namespace pl::ui {
 
 CellImage make_cell_image(const DisplayFrame& colors) {
     const std::uint32_t* pixels = colors.pixels();
@@ -12,4 +12,4 @@ std::uint32_t cell_color(std::int32_t volume, const ToneCodes& codes) {
     return frame_pixel(color_of_id(static_cast<std::uint32_t>(volume)), {}, codes);
 }
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -2,7 +2,7 @@
 
 #include "ui/worker/cell_colors.h"
 
-namespace pl {
+namespace pl::ui {
 
 bool CellRenderer::is_current(const Session& session) const {
     return image_pose_ == pose_ && refinement_ == session.refinement();
@@ -20,4 +20,4 @@ std::shared_ptr<const CellImage> CellRenderer::image(const Session& session) con
     return is_current(session) ? image_ : nullptr;
 }
 
-}  // namespace pl
+}  // namespace pl::ui

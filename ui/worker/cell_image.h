@@ -6,7 +6,7 @@
 #include "core/session/session.h"
 #include "ui/worker/published_frame.h"
 
-namespace pl {
+namespace pl::ui {
 
 class CellRenderer {
 public:
@@ -29,4 +29,4 @@ private:
     Refinement refinement_;         ///< of the image's volumes
 };
 
-}  // namespace pl
+}  // namespace pl::ui

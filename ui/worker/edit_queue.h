@@ -8,7 +8,7 @@
 
 #include "core/session/edits.h"
 
-namespace pl {
+namespace pl::ui {
 
 /// Another method or view in the window: the render thread turns to another film of the session.
 struct EditMethod {
@@ -61,4 +61,4 @@ private:
     std::vector<WorkerEdit> edits_;
 };
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -4,7 +4,7 @@
 
 #include "core/session/path_settings.h"
 
-namespace pl {
+namespace pl::ui {
 namespace {
 
 constexpr std::uint64_t kFirstPasses = 16;
@@ -107,4 +107,4 @@ bool FieldHistoryRecorder::observe(const Session& session, MethodId method) {
     return true;
 }
 
-}  // namespace pl
+}  // namespace pl::ui

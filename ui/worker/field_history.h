@@ -7,7 +7,7 @@
 
 #include "core/session/session.h"
 
-namespace pl {
+namespace pl::ui {
 
 /// A learned field as it was after some passes. Immutable.
 class FieldKeyFrame {
@@ -79,4 +79,4 @@ private:
     std::shared_ptr<const FieldHistory> history_ = std::make_shared<const FieldHistory>();
 };
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -1,6 +1,6 @@
 #include "ui/worker/frame_schedule.h"
 
-namespace pl {
+namespace pl::ui {
 
 bool FrameSchedule::is_due(std::uint32_t passes, bool is_moving, double rendered_seconds) const {
     if (passes == 0 || shows(passes)) return false;
@@ -17,4 +17,4 @@ void FrameSchedule::end(std::uint32_t passes) {
     age_.emplace();
 }
 
-}  // namespace pl
+}  // namespace pl::ui

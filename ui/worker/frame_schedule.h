@@ -5,7 +5,7 @@
 #include "core/base/timer.h"
 #include "ui/worker/requests.h"
 
-namespace pl {
+namespace pl::ui {
 
 /// Seconds between two frames: the longer a picture has rendered, the less a pass changes it.
 constexpr double frame_interval(double rendered_seconds) {
@@ -40,4 +40,4 @@ private:
     std::optional<Stopwatch> age_;
 };
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -1,6 +1,6 @@
 #include "ui/worker/inbox.h"
 
-namespace pl {
+namespace pl::ui {
 
 std::uint64_t Inbox::submit(WorkerEdit edit) {
     std::vector<WorkerEdit> edits;
@@ -70,4 +70,4 @@ void Inbox::settle_backend(const std::string& asked, const std::string& in_use) 
     if (requests_.backend == asked) requests_.backend = in_use;
 }
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -9,7 +9,7 @@
 #include "ui/worker/edit_queue.h"
 #include "ui/worker/requests.h"
 
-namespace pl {
+namespace pl::ui {
 
 class Inbox {
 public:
@@ -63,4 +63,4 @@ private:
     StopFlag stop_{false};
 };
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -2,7 +2,7 @@
 
 #include "core/base/error.h"
 
-namespace pl {
+namespace pl::ui {
 namespace {
 
 /// Only the number of the volume while the method has no tables.
@@ -29,4 +29,4 @@ bool Inspection::refresh(const Session& session, MethodId method, std::int32_t v
     return true;
 }
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -7,7 +7,7 @@
 #include "core/base/timer.h"
 #include "core/session/session.h"
 
-namespace pl {
+namespace pl::ui {
 
 class Inspection {
 public:
@@ -31,4 +31,4 @@ private:
     std::optional<Stopwatch> age_;  ///< since the last reading
 };
 
-}  // namespace pl
+}  // namespace pl::ui

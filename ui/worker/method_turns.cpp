@@ -1,6 +1,6 @@
 #include "ui/worker/method_turns.h"
 
-namespace pl {
+namespace pl::ui {
 
 void MethodTurns::count_both(const Session& session, View view) {
     for (const std::size_t side : {0u, 1u}) count_side(side, session, view);
@@ -36,4 +36,4 @@ std::size_t MethodTurns::next(bool is_moving, const Requests& now) {
     return side;
 }
 
-}  // namespace pl
+}  // namespace pl::ui

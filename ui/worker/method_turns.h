@@ -5,7 +5,7 @@
 #include "ui/worker/requests.h"
 #include "ui/worker/turns.h"
 
-namespace pl {
+namespace pl::ui {
 
 class MethodTurns {
 public:
@@ -45,4 +45,4 @@ private:
     std::optional<FieldStatus> field_;
 };
 
-}  // namespace pl
+}  // namespace pl::ui

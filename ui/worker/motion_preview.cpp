@@ -1,6 +1,6 @@
 #include "ui/worker/motion_preview.h"
 
-namespace pl {
+namespace pl::ui {
 namespace {
 
 /// The method whose map can be shown without rendering more for it: one that has learned from a pass, or that is complete.
@@ -62,4 +62,4 @@ FilmSlot MotionPreview::slot(const Session& session, FilmSlot film) const {
     return {info_of(owner).learns ? baseline_method() : owner, View::RadianceMap};
 }
 
-}  // namespace pl
+}  // namespace pl::ui

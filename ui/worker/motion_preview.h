@@ -5,7 +5,7 @@
 #include "core/session/session.h"
 #include "ui/worker/published_frame.h"
 
-namespace pl {
+namespace pl::ui {
 
 class MotionPreview {
 public:
@@ -39,4 +39,4 @@ private:
     bool is_on_screen_ = false;
 };
 
-}  // namespace pl
+}  // namespace pl::ui

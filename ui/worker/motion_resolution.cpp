@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace pl {
+namespace pl::ui {
 
 void MotionResolution::observe(int divider, double seconds) {
     if (!(seconds > 0.0)) return;
@@ -24,4 +24,4 @@ int MotionResolution::divider_for(int width, int height) const {
     return divider;
 }
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -1,7 +1,7 @@
 // The divider of the picture's size while the camera moves, which keeps up the frame rate.
 #pragma once
 
-namespace pl {
+namespace pl::ui {
 
 /// Divider of width and height, one of 1, 2, 4, 8. Aims at a pass time. Changes outside a dead band only, so that the size does
 /// not flicker.
@@ -30,4 +30,4 @@ private:
 /// Width or height after division; at least 1.
 constexpr int divided(int size, int divider) { return size / divider > 0 ? size / divider : 1; }
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-namespace pl {
+namespace pl::ui {
 
 std::shared_ptr<const PublishedFrame> Outbox::latest() {
     const std::lock_guard lock(mutex_);
@@ -124,4 +124,4 @@ void Outbox::fail(std::exception_ptr failure) {
     status_.state = WorkerState::Failed;
 }
 
-}  // namespace pl
+}  // namespace pl::ui

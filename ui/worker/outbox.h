@@ -10,7 +10,7 @@
 #include "ui/worker/field_history.h"
 #include "ui/worker/published_frame.h"
 
-namespace pl {
+namespace pl::ui {
 
 class Outbox {
 public:
@@ -66,4 +66,4 @@ private:
     std::exception_ptr failure_;
 };
 
-}  // namespace pl
+}  // namespace pl::ui

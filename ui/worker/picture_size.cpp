@@ -1,6 +1,6 @@
 #include "ui/worker/picture_size.h"
 
-namespace pl {
+namespace pl::ui {
 
 void PictureSize::resize(int width, int height) {
     width_ = width;
@@ -18,4 +18,4 @@ bool PictureSize::apply(Session& session, bool is_coarse) {
     return true;
 }
 
-}  // namespace pl
+}  // namespace pl::ui

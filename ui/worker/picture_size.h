@@ -5,7 +5,7 @@
 #include "ui/worker/motion_resolution.h"
 #include "ui/worker/requests.h"
 
-namespace pl {
+namespace pl::ui {
 
 class PictureSize {
 public:
@@ -39,4 +39,4 @@ private:
     MotionResolution motion_;
 };
 
-}  // namespace pl
+}  // namespace pl::ui

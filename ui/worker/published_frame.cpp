@@ -2,7 +2,7 @@
 
 #include "core/session/session.h"
 
-namespace pl {
+namespace pl::ui {
 
 PublishedFrame frame_of_film(Session& session, FilmSlot slot, const DisplaySettings& display, bool with_values) {
     PublishedFrame frame;
@@ -18,4 +18,4 @@ PublishedFrame frame_of_film(Session& session, FilmSlot slot, const DisplaySetti
     return frame;
 }
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -15,7 +15,7 @@
 #include "core/session/shown_range.h"
 #include "ui/viewer.h"
 
-namespace pl {
+namespace pl::ui {
 
 /// The radiance volume that serves each pixel, as display colors of color_of_id(); see ui/worker/cell_colors.h.
 struct CellImage {
@@ -112,16 +112,16 @@ struct LearnedAnswer {
 
 /// Answer to RenderWorker::request_diagnostics.
 struct DiagnosticsAnswer {
-    std::optional<DiagnosticsInput> source{};  ///< empty if the view traces no paths
-    std::string reason{};                      ///< for the lack of it
-    std::uint64_t generation = 0;              ///< of the newest edit that the picture shows
+    std::optional<diagnose::DiagnosticsInput> source{};  ///< empty if the view traces no paths
+    std::string reason{};                                ///< for the lack of it
+    std::uint64_t generation = 0;                        ///< of the newest edit that the picture shows
 };
 
 /// Answer to RenderWorker::request_paths.
 struct PathsAnswer {
-    std::shared_ptr<PassPair> passes{};  ///< of the picture; null if its view traces no paths
-    std::string reason{};                ///< for the lack of it
-    std::uint64_t generation = 0;        ///< of the newest edit that the picture shows
+    std::shared_ptr<diagnose::PassPair> passes{};  ///< of the picture; null if its view traces no paths
+    std::string reason{};                          ///< for the lack of it
+    std::uint64_t generation = 0;                  ///< of the newest edit that the picture shows
 };
 
 /// Answer to RenderWorker::request_gain: the pictures of default and of a guided method so far, with their halves.
@@ -136,4 +136,4 @@ struct PickAnswer {
     std::optional<PickedPoint> point;
 };
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -4,7 +4,7 @@
 
 #include "core/measure/picture_identity.h"
 
-namespace pl {
+namespace pl::ui {
 namespace {
 
 /// Changed settings that distinguish runs of a method on the same picture.
@@ -50,4 +50,4 @@ void Recorder::set_reference(std::shared_ptr<const LiveReference> reference) {
     runs_.set_reference(reference_);
 }
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -4,7 +4,7 @@
 
 #include "core/measure/live_runs.h"
 
-namespace pl {
+namespace pl::ui {
 
 class Recorder {
 public:
@@ -30,4 +30,4 @@ private:
     std::uint64_t generation_ = 0;  ///< FilmOrigin::generation of picture_
 };
 
-}  // namespace pl
+}  // namespace pl::ui

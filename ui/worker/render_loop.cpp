@@ -6,7 +6,7 @@
 
 #include "core/base/timer.h"
 
-namespace pl {
+namespace pl::ui {
 namespace {
 
 /// Lowers the priority below that of the window, for machines with few cores. On Linux it applies to the calling
@@ -287,4 +287,4 @@ void RenderLoop::update_status() {
     outbox_.set_status(status);
 }
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -14,7 +14,7 @@
 #include "ui/worker/picture_size.h"
 #include "ui/worker/recorder.h"
 
-namespace pl {
+namespace pl::ui {
 
 struct WorkerSetup {
     BackendSwitch::Make make_backend;
@@ -102,4 +102,4 @@ private:
     bool failed_ = false;
 };
 
-}  // namespace pl
+}  // namespace pl::ui

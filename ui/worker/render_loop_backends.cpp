@@ -3,7 +3,7 @@
 
 #include "ui/worker/render_loop.h"
 
-namespace pl {
+namespace pl::ui {
 
 /// Runs a step. If a back end fails in it, another takes over and repeats it. False, with a message about the reason,
 /// if the step cannot be done.
@@ -69,4 +69,4 @@ void RenderLoop::settle_backend(const std::string& asked) {
     if (now_.backend == asked) now_.backend = backends_.current();
 }
 
-}  // namespace pl
+}  // namespace pl::ui

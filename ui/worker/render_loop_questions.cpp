@@ -2,7 +2,7 @@
 #include "ui/worker/answers.h"
 #include "ui/worker/render_loop.h"
 
-namespace pl {
+namespace pl::ui {
 
 void RenderLoop::answer_questions() {
     if (now_.once.pick) outbox_.answer(answer_pick(*session_, *now_.once.pick));
@@ -51,4 +51,4 @@ void RenderLoop::observe_field() {
     if (is_other || has_frame) outbox_.set_history(watched_.history.history());
 }
 
-}  // namespace pl
+}  // namespace pl::ui

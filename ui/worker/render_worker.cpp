@@ -1,6 +1,6 @@
 #include "ui/worker/render_worker.h"
 
-namespace pl {
+namespace pl::ui {
 namespace {
 
 using Interrupts = Inbox::Interrupts;
@@ -183,4 +183,4 @@ void RenderWorker::select_volume(std::int32_t volume) {
     });
 }
 
-}  // namespace pl
+}  // namespace pl::ui

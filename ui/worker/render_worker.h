@@ -6,7 +6,7 @@
 
 #include "ui/worker/render_loop.h"
 
-namespace pl {
+namespace pl::ui {
 
 class RenderWorker {
 public:
@@ -84,4 +84,4 @@ private:
     std::thread thread_;  ///< last: starts after all other members are made
 };
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -11,7 +11,7 @@
 #include "ui/viewer.h"
 #include "ui/worker/published_frame.h"
 
-namespace pl {
+namespace pl::ui {
 
 /// Requests that are complete once carried out.
 struct OneShotRequests {
@@ -50,4 +50,4 @@ struct Requests {
     }
 };
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace pl {
+namespace pl::ui {
 namespace {
 
 constexpr std::array<std::size_t, 4> kOrder{0, 1, 1, 0};
@@ -30,4 +30,4 @@ std::size_t Turns::next(const std::array<double, 2>& charged_seconds) {
     return kOrder[turn_];
 }
 
-}  // namespace pl
+}  // namespace pl::ui

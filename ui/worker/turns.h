@@ -4,7 +4,7 @@
 #include <array>
 #include <cstddef>
 
-namespace pl {
+namespace pl::ui {
 
 /// Order A, B, B, A, so that a drifting clock or machine affects both alike. The turns equalize charged time: a pass
 /// longer than a turn shortens later ones.
@@ -28,4 +28,4 @@ private:
     bool catching_up_ = false;
 };
 
-}  // namespace pl
+}  // namespace pl::ui

@@ -3,6 +3,7 @@
 #include "tests/ui/hand_made_comparison.h"
 
 using namespace pl;
+using namespace pl::ui;
 using namespace pl::test;
 
 TEST_CASE("Plan: off draws nothing, nothing to compare says so") {

@@ -8,6 +8,7 @@
 #include "ui/compare/half_image.h"
 
 using namespace pl;
+using namespace pl::ui;
 using namespace pl::test;
 
 namespace {

@@ -5,6 +5,7 @@
 #include "tests/ui/worker/session_bench.h"
 
 using namespace pl;
+using namespace pl::ui;
 using namespace pl::test;
 
 TEST_CASE("Cell tint: pixels take the color of their volume's value, others stay") {

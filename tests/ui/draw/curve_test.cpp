@@ -3,6 +3,7 @@
 #include "tests/support/catch.hpp"
 
 using namespace pl;
+using namespace pl::ui;
 
 TEST_CASE("Curve: the scale shows all points, passes by their logarithm") {
     const std::vector<PassPoint> points{{1.0, 3.0}, {10.0, 1.0}, {100.0, 0.5}};

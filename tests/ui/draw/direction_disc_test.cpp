@@ -7,6 +7,7 @@
 #include "ui/draw/direction_disc.h"
 
 using namespace pl;
+using namespace pl::ui;
 
 namespace {
 

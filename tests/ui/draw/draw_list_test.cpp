@@ -5,6 +5,7 @@
 #include "ui/draw/draw_list.h"
 
 using namespace pl;
+using namespace pl::ui;
 
 namespace {
 

@@ -4,6 +4,7 @@
 #include <array>
 
 using namespace pl;
+using namespace pl::ui;
 
 namespace {
 

@@ -4,6 +4,7 @@
 #include "tests/support/catch.hpp"
 
 using namespace pl;
+using namespace pl::ui;
 
 TEST_CASE("Magnifier: the pixel under the pointer is in the middle of a box beside it, inside the view") {
     constexpr Rect kView{100.0f, 50.0f, 800.0f, 600.0f};

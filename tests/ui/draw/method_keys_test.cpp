@@ -2,6 +2,7 @@
 #include "ui/draw/method_keys.h"
 
 using namespace pl;
+using namespace pl::ui;
 
 TEST_CASE("Method keys: all methods, or those with a flag") {
     CHECK(method_keys() == "1, 2, 3");

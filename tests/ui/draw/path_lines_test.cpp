@@ -7,6 +7,7 @@
 #include "tests/ui/fake_backend.h"
 
 using namespace pl;
+using namespace pl::ui;
 using namespace pl::test;
 
 namespace {
@@ -24,15 +25,15 @@ const Rect kImage{10.0f, 20.0f, 100.0f, 100.0f};
 Projection straight() { return Projection(straight_camera(), 100, 100, kImage); }
 
 /// From the camera to the floor, and from there out of the scene, with a visible light sample on the way.
-PathRecord some_path() {
-    PathRecord path;
+diagnose::PathRecord some_path() {
+    diagnose::PathRecord path;
     path.radiance = Vec3f{0.5f};
-    VertexRecord floor;
+    diagnose::VertexRecord floor;
     floor.origin = {0.0f, 1.0f, 4.0f};
     floor.position = {0.0f, 0.0f, 0.5f};
-    floor.light =
-        LightSampleRecord{.wi = {0.0f, 1.0f, 0.0f}, .position = Vec3f{0.0f, 2.0f, 0.5f}, .is_visible = true};
-    VertexRecord escape;
+    floor.light = diagnose::LightSampleRecord{
+        .wi = {0.0f, 1.0f, 0.0f}, .position = Vec3f{0.0f, 2.0f, 0.5f}, .is_visible = true};
+    diagnose::VertexRecord escape;
     escape.is_escape = true;
     escape.origin = floor.position;
     escape.wo = {-1.0f, 0.0f, 0.0f};
@@ -90,7 +91,7 @@ TEST_CASE("Path lines: a line for each ray, shadow rays on request, a casing for
     CHECK(pieces[1].width_px < pieces[0].width_px);
     CHECK(pieces[0].is_dashed);
 
-    PathRecord occluded = some_path();
+    diagnose::PathRecord occluded = some_path();
     occluded.vertices[0].light->is_visible = false;
     pieces.clear();
     add_path(pieces, occluded, {.has_shadow_rays = true});

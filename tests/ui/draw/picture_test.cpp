@@ -7,6 +7,7 @@
 #include "ui/worker/cell_colors.h"
 
 using namespace pl;
+using namespace pl::ui;
 
 namespace {
 

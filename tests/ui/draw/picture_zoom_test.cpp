@@ -8,6 +8,7 @@
 #include "tests/support/catch.hpp"
 
 using namespace pl;
+using namespace pl::ui;
 
 namespace {
 

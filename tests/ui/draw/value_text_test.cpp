@@ -6,6 +6,7 @@
 #include "tests/support/catch.hpp"
 
 using namespace pl;
+using namespace pl::ui;
 
 TEST_CASE("Short values: three digits, or two and an exponent, also where rounding changes the power of ten") {
     CHECK(short_value(0.0) == "0");

@@ -3,6 +3,7 @@
 #include "tests/support/catch.hpp"
 
 using namespace pl;
+using namespace pl::ui;
 
 TEST_CASE("Words: one is not many") {
     CHECK(passes_text(0) == "0 passes");

@@ -10,6 +10,7 @@
 #include "ui/input/actions.h"
 
 using namespace pl;
+using namespace pl::ui;
 
 namespace {
 

@@ -4,6 +4,7 @@
 #include "ui/input/perform_action.h"
 
 using namespace pl;
+using namespace pl::ui;
 using namespace pl::test;
 
 TEST_CASE("Perform action: every action but the held keys has an effect, each method its own") {

@@ -2,6 +2,7 @@
 #include "ui/input/pointer_gesture.h"
 
 using namespace pl;
+using namespace pl::ui;
 
 TEST_CASE("Pointer gesture: a short press without movement is a click") {
     PointerGesture gesture;

@@ -5,6 +5,7 @@
 #include "tests/ui/model_bench.h"
 
 using namespace pl;
+using namespace pl::ui;
 using namespace pl::test;
 
 namespace {

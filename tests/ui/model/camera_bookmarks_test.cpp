@@ -8,6 +8,7 @@
 #include "ui/model/thumbnail.h"
 
 using namespace pl;
+using namespace pl::ui;
 using namespace pl::test;
 
 namespace {

@@ -4,6 +4,7 @@
 #include "ui/model/camera_controls.h"
 
 using namespace pl;
+using namespace pl::ui;
 
 namespace {
 

@@ -3,6 +3,7 @@
 #include "ui/input/perform_action.h"
 
 using namespace pl;
+using namespace pl::ui;
 using namespace pl::test;
 
 TEST_CASE("Camera motion: motion ends a tenth of a second after the last input") {

@@ -3,6 +3,7 @@
 #include "tests/ui/model_bench.h"
 
 using namespace pl;
+using namespace pl::ui;
 using namespace pl::test;
 
 namespace {

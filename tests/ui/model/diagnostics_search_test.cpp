@@ -4,6 +4,7 @@
 #include "ui/script/script_values.h"
 
 using namespace pl;
+using namespace pl::ui;
 using namespace pl::test;
 
 namespace {
@@ -32,7 +33,7 @@ TEST_CASE(
     DiagnosticsBench bench;
     ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
     REQUIRE(bench.is_done(model));
-    CHECK(counted_diagnostics(model.frame()->snapshot) == DiagnosticCounts{4, 0, 0, 0});
+    CHECK(diagnose::counted_diagnostics(model.frame()->snapshot) == diagnose::DiagnosticCounts{4, 0, 0, 0});
     CHECK(script_value(model, "diagnostics") == "not searched");
 
     model.diagnostics().toggle();
@@ -40,8 +41,8 @@ TEST_CASE(
     REQUIRE(bench.run_until(model, [&] { return model.diagnostics().map() != nullptr; }));
     const auto map = model.diagnostics().map();
     CHECK(map->is_complete);
-    CHECK(map->pixels[kBad] == DiagnosticsMap::Pixel{4, 0, 0, 0});
-    CHECK(map->pixel_count(DiagnosticKind::InvalidSample) == 1);
+    CHECK(map->pixels[kBad] == diagnose::DiagnosticsMap::Pixel{4, 0, 0, 0});
+    CHECK(map->pixel_count(diagnose::DiagnosticKind::InvalidSample) == 1);
     CHECK(script_value(model, "diagnostics") == "4 invalid in 1 pixel");
     CHECK(told(model, "4 invalid in 1 pixel"));
     CHECK_FALSE(model.busy());

@@ -2,6 +2,7 @@
 #include "tests/ui/file_bench.h"
 
 using namespace pl;
+using namespace pl::ui;
 using namespace pl::test;
 
 TEST_CASE("Display controls: exposure and overlays restart nothing") {

@@ -2,6 +2,7 @@
 #include "ui/model/edited_materials.h"
 
 using namespace pl;
+using namespace pl::ui;
 
 namespace {
 

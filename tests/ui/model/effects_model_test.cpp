@@ -6,6 +6,7 @@
 #include "ui/model/effects_model.h"
 
 using namespace pl;
+using namespace pl::ui;
 using namespace pl::test;
 
 namespace {

@@ -4,6 +4,7 @@
 #include "tests/ui/file_bench.h"
 
 using namespace pl;
+using namespace pl::ui;
 using namespace pl::test;
 
 TEST_CASE("Flowers: hidden nothing is taken or made, and shown triangles are made once for a camera") {

@@ -8,6 +8,7 @@
 #include "tests/ui/fake_backend.h"
 
 using namespace pl;
+using namespace pl::ui;
 using namespace pl::test;
 
 namespace {

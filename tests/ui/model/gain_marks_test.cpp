@@ -6,6 +6,7 @@
 #include "ui/input/perform_action.h"
 
 using namespace pl;
+using namespace pl::ui;
 using namespace pl::test;
 
 TEST_CASE("Gain marks: they need both pictures, say so, and go with the picture") {

@@ -6,6 +6,7 @@
 #include "ui/model/jobs.h"
 
 using namespace pl;
+using namespace pl::ui;
 using namespace pl::test;
 
 TEST_CASE("Jobs: reports run on the calling thread, an exception becomes an error message") {

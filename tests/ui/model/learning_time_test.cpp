@@ -4,6 +4,7 @@
 #include "tests/ui/file_bench.h"
 
 using namespace pl;
+using namespace pl::ui;
 using namespace pl::test;
 
 TEST_CASE("Learning time: key frames are kept on request, shown, played back and forth, and given up") {

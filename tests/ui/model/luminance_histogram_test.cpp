@@ -8,6 +8,7 @@
 #include "tests/support/catch.hpp"
 
 using namespace pl;
+using namespace pl::ui;
 
 TEST_CASE("Histogram: every pixel is counted once") {
     const float nan = std::numeric_limits<float>::quiet_NaN();

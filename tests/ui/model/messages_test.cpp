@@ -2,6 +2,7 @@
 #include "ui/model/messages.h"
 
 using namespace pl;
+using namespace pl::ui;
 
 TEST_CASE("Messages: toasts expire, errors later, and the log keeps both") {
     Messages messages;

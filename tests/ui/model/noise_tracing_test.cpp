@@ -6,6 +6,7 @@
 #include "tests/ui/traced_floor.h"
 
 using namespace pl;
+using namespace pl::ui;
 using namespace pl::test;
 
 TEST_CASE("Noise tracing: works while it is shown, rests while it is hidden, and ends with the paths") {
@@ -63,7 +64,7 @@ TEST_CASE("Noise tracing: it ends at the largest number of paths") {
     model.paths().pick(kFloor);
     REQUIRE(bench.run_until(model, [&] {
         model.paths().noise().show();
-        const PixelNoise* const noise = model.paths().noise().noise();
+        const diagnose::PixelNoise* const noise = model.paths().noise().noise();
         return noise != nullptr && noise->plain.paths >= NoiseTracing::kMostPaths;
     }));
     CHECK(model.paths().noise().noise()->plain.paths == NoiseTracing::kMostPaths);

@@ -5,6 +5,7 @@
 #include "ui/model/numbered_names.h"
 
 using namespace pl;
+using namespace pl::ui;
 
 TEST_CASE("Numbered names: no file is ever hit twice") {
     const test::TemporaryFolder folder;

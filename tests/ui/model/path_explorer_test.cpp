@@ -5,6 +5,7 @@
 #include "tests/ui/traced_floor.h"
 
 using namespace pl;
+using namespace pl::ui;
 using namespace pl::test;
 
 TEST_CASE("Path explorer: hidden it traces nothing, shown it has the paths of the clicked pixel") {
@@ -20,7 +21,7 @@ TEST_CASE("Path explorer: hidden it traces nothing, shown it has the paths of th
     model.paths().set_shown(true);
     model.paths().pick(kFloor);
     REQUIRE(bench.run_until(model, [&] { return is_traced(model); }));
-    const PixelPaths& paths = *model.paths().paths();
+    const diagnose::PixelPaths& paths = *model.paths().paths();
     CHECK(model.paths().x() == 32);
     CHECK(model.paths().y() == 41);
     CHECK(paths.plain.size() == 32);
@@ -29,8 +30,8 @@ TEST_CASE("Path explorer: hidden it traces nothing, shown it has the paths of th
     CHECK(model.paths().lists_guided());
     // The brightest is selected.
     REQUIRE(model.paths().selected());
-    for (const PathRecord& path : model.paths().listed())
-        CHECK(path_light(path) <= path_light(model.paths().listed()[*model.paths().selected()]));
+    for (const diagnose::PathRecord& path : model.paths().listed())
+        CHECK(diagnose::path_light(path) <= diagnose::path_light(model.paths().listed()[*model.paths().selected()]));
     CHECK(model.paths().range().high > 0.0f);
 
     model.cancel();  // Esc
@@ -48,7 +49,7 @@ TEST_CASE("Path explorer: other numbers are traced without another click") {
     CHECK(model.paths().paths()->guided.empty());  // nothing was learned
     CHECK_FALSE(model.paths().lists_guided());
     model.paths().options().count = 5;
-    model.paths().options().choice = PassChoice::Newest;
+    model.paths().options().choice = diagnose::PassChoice::Newest;
     REQUIRE(bench.run_until(model, [&] { return is_traced(model) && model.paths().paths()->passes.size() == 5; }));
     CHECK(model.paths().paths()->searched == 5);
 }

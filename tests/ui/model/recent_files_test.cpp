@@ -2,6 +2,7 @@
 #include "ui/model/recent_files.h"
 
 using namespace pl;
+using namespace pl::ui;
 
 using Names = std::vector<std::string>;
 

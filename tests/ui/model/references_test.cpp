@@ -9,6 +9,7 @@
 #include "ui/model/viewer_model.h"
 
 using namespace pl;
+using namespace pl::ui;
 using namespace pl::test;
 
 namespace {
@@ -21,22 +22,22 @@ struct ReferenceBench : ModelBench {
 
     /// Stores a reference of the picture that the window opens with.
     void store() const {
-        Reference reference{.name = "small-" + content().picture_hash, .content = content(), .halves = {}};
+        bench::Reference reference{.name = "small-" + content().picture_hash, .content = content(), .halves = {}};
         const auto pixels = static_cast<std::size_t>(options.settings.width * options.settings.height);
         const auto half = [&](float value, std::uint32_t spp) {
-            return ReferenceHalf{.image = {.width = options.settings.width,
-                                           .height = options.settings.height,
-                                           .pixels = std::vector<Vec3f>(pixels, Vec3f{value})},
-                                 .spp = spp,
-                                 .parts = 1};
+            return bench::ReferenceHalf{.image = {.width = options.settings.width,
+                                                  .height = options.settings.height,
+                                                  .pixels = std::vector<Vec3f>(pixels, Vec3f{value})},
+                                        .spp = spp,
+                                        .parts = 1};
         };
         reference.halves = {half(1.0f, 3), half(3.0f, 1)};
         std::filesystem::create_directories(options.reference_dir);
-        const ReferenceStore references(options.reference_dir);
+        const bench::ReferenceStore references(options.reference_dir);
         references.save_half(reference, 0);
         references.save_half(reference, 1);
     }
-    PictureContent content() const { return content_of(*small_scene(), options.settings); }
+    bench::PictureContent content() const { return bench::content_of(*small_scene(), options.settings); }
 };
 
 }  // namespace
@@ -72,7 +73,7 @@ TEST_CASE("References: rendering one holds the picture, and ending it keeps its 
     model.cancel();
     REQUIRE(bench.run_until(model, [&] { return model.references().current() != nullptr; }));
     CHECK_FALSE(model.references().progress().has_value());
-    CHECK(ReferenceStore(bench.options.reference_dir).require(bench.content()).has_samples());
+    CHECK(bench::ReferenceStore(bench.options.reference_dir).require(bench.content()).has_samples());
     CHECK(bench.run_until(model, [&] { return model.status().seconds > seconds; }));  // rendering continues
 }
 

@@ -4,6 +4,7 @@
 #include "ui/model/remembered_window.h"
 
 using namespace pl;
+using namespace pl::ui;
 using namespace pl::test;
 
 namespace {

@@ -4,6 +4,7 @@
 #include "ui/script/script_values.h"
 
 using namespace pl;
+using namespace pl::ui;
 using namespace pl::test;
 
 TEST_CASE("Render controls: views are stepped through in both directions") {

@@ -4,6 +4,7 @@
 #include "ui/model/render_link.h"
 
 using namespace pl;
+using namespace pl::ui;
 using namespace pl::test;
 
 namespace {

@@ -4,6 +4,7 @@
 #include "tests/ui/file_bench.h"
 
 using namespace pl;
+using namespace pl::ui;
 using namespace pl::test;
 
 TEST_CASE("Saved fields: a learned field is saved, and rendering continues from it") {

@@ -3,6 +3,7 @@
 #include "ui/script/script_values.h"
 
 using namespace pl;
+using namespace pl::ui;
 using namespace pl::test;
 
 TEST_CASE("Selection: a picked volume is selected, deselected, and forgotten with its field") {

@@ -6,6 +6,7 @@
 #include "tests/ui/file_bench.h"
 
 using namespace pl;
+using namespace pl::ui;
 using namespace pl::test;
 
 TEST_CASE("Shown volumes: the selected one and the pinned ones, each once, on one scale, now and then") {

@@ -9,6 +9,7 @@
 #include "tests/support/files/temporary_folder.h"
 
 namespace pl::test {
+using namespace pl::ui;
 namespace {
 
 RenderSettings small_settings(const SceneDescription& scene) {
@@ -49,7 +50,7 @@ TEST_CASE("Stored reference: one that is stopped at once has both halves, is fou
     CHECK(found->spp == made->spp);
     CHECK(found->halves.first == made->halves.first);
     // The reference in the store of `pathlight reference`.
-    CHECK(ReferenceStore(folder.path()).require(content_of(*scene, settings)).has_samples());
+    CHECK(bench::ReferenceStore(folder.path()).require(bench::content_of(*scene, settings)).has_samples());
     const auto more = make_for(20, folder.path(), scene, settings);
     CHECK(more->spp[0] + more->spp[1] > made->spp[0] + made->spp[1]);
 }

@@ -2,6 +2,7 @@
 #include "ui/model/throughput.h"
 
 using namespace pl;
+using namespace pl::ui;
 
 namespace {
 

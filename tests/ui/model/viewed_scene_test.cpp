@@ -9,6 +9,7 @@
 #include "ui/model/stored_reference.h"
 
 using namespace pl;
+using namespace pl::ui;
 using namespace pl::test;
 
 namespace {

@@ -2,6 +2,7 @@
 #include "tests/ui/file_bench.h"
 
 using namespace pl;
+using namespace pl::ui;
 using namespace pl::test;
 
 TEST_CASE("Viewer model: Esc closes the help, then interrupts precomputation, then deselects") {

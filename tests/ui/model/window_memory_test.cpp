@@ -3,6 +3,7 @@
 #include "ui/model/window_memory.h"
 
 using namespace pl;
+using namespace pl::ui;
 using namespace pl::test;
 
 namespace {

@@ -5,6 +5,7 @@
 #include "ui/plot/accuracy_model.h"
 
 using namespace pl;
+using namespace pl::ui;
 using namespace pl::test;
 
 namespace {

@@ -2,6 +2,7 @@
 #include "ui/plot/plot_drag.h"
 
 using namespace pl;
+using namespace pl::ui;
 
 namespace {
 

@@ -7,6 +7,7 @@
 #include "ui/plot/plot_lines.h"
 
 using namespace pl;
+using namespace pl::ui;
 using namespace pl::test;
 
 namespace {

@@ -6,6 +6,7 @@
 #include "ui/plot/plot_view.h"
 
 using namespace pl;
+using namespace pl::ui;
 using namespace pl::test;
 
 namespace {

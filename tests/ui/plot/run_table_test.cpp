@@ -8,6 +8,7 @@
 #include "tests/ui/hand_made_runs.h"
 
 using namespace pl;
+using namespace pl::ui;
 using namespace pl::test;
 
 namespace {

@@ -7,6 +7,7 @@
 #include "ui/script/script_values.h"
 
 using namespace pl;
+using namespace pl::ui;
 
 namespace {
 

@@ -3,6 +3,7 @@
 #include "ui/script/ui_trace.h"
 
 using namespace pl;
+using namespace pl::ui;
 
 TEST_CASE("UI trace: percentiles interpolate, latencies run from a move to the picture that shows it") {
     CHECK(percentile({}, 0.5) == 0.0);

@@ -2,6 +2,7 @@
 #include "ui/window/frame_pacing.h"
 
 using namespace pl;
+using namespace pl::ui;
 
 namespace {
 

@@ -4,6 +4,7 @@
 #include "ui/window/window_plan.h"
 
 using namespace pl;
+using namespace pl::ui;
 
 TEST_CASE("Window plan: without knowledge of the screen the window has its design size") {
     const WindowPlan plan = plan_window({}, {});

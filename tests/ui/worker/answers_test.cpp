@@ -4,6 +4,7 @@
 #include "tests/ui/worker/session_bench.h"
 
 using namespace pl;
+using namespace pl::ui;
 using namespace pl::test;
 
 TEST_CASE("Answers: a surface under the image with its volume, or none") {

@@ -3,6 +3,7 @@
 #include "tests/ui/worker_bench.h"
 
 using namespace pl;
+using namespace pl::ui;
 using namespace pl::test;
 
 TEST_CASE("Back-end switch: method, view, camera and field stay, and tables move to the bit, both ways") {

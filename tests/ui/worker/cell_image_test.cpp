@@ -5,6 +5,7 @@
 #include "tests/ui/worker_bench.h"
 
 using namespace pl;
+using namespace pl::ui;
 using namespace pl::test;
 
 TEST_CASE("Cell image: is current until camera, size or placement change") {

@@ -5,6 +5,7 @@
 #include "tests/support/catch.hpp"
 
 using namespace pl;
+using namespace pl::ui;
 using namespace pl::test;
 
 namespace {

@@ -7,6 +7,7 @@
 #include "tests/ui/worker_bench.h"
 
 using namespace pl;
+using namespace pl::ui;
 using namespace pl::test;
 
 TEST_CASE("Inspection: is read once for a volume, again after edits, and at intervals") {

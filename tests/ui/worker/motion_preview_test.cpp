@@ -6,6 +6,7 @@
 #include "tests/ui/worker_bench.h"
 
 using namespace pl;
+using namespace pl::ui;
 using namespace pl::test;
 
 TEST_CASE("Motion preview: light samples without a learned field, else its map, and none for other pictures") {

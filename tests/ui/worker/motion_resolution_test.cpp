@@ -3,6 +3,7 @@
 #include "tests/support/catch.hpp"
 
 using namespace pl;
+using namespace pl::ui;
 
 TEST_CASE("Motion resolution: takes the finest size that keeps the rate, and does not flicker") {
     constexpr double kTarget = MotionResolution::kTargetSeconds;

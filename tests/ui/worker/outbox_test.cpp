@@ -3,6 +3,7 @@
 #include "tests/support/catch.hpp"
 
 using namespace pl;
+using namespace pl::ui;
 using namespace pl::test;
 
 TEST_CASE("Outbox: frames are numbered, and the window tells by taking one that it has seen it") {

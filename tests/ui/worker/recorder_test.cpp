@@ -7,6 +7,7 @@
 #include "tests/ui/worker_bench.h"
 
 using namespace pl;
+using namespace pl::ui;
 using namespace pl::test;
 
 TEST_CASE("Recorder: the picture is known once a film of its generation was observed") {

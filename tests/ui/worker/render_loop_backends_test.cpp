@@ -4,6 +4,7 @@
 #include "tests/ui/worker_bench.h"
 
 using namespace pl;
+using namespace pl::ui;
 using namespace pl::test;
 
 namespace {

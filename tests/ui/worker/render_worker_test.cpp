@@ -3,6 +3,7 @@
 #include "tests/ui/worker_bench.h"
 
 using namespace pl;
+using namespace pl::ui;
 using namespace pl::test;
 
 TEST_CASE("Render worker: publishes frames that belong together") {

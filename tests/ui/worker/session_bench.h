@@ -5,6 +5,7 @@
 #include "tests/ui/fake_backend.h"
 
 namespace pl::test {
+using namespace pl::ui;
 
 struct SessionBench {
     std::shared_ptr<FakeControl> control = std::make_shared<FakeControl>();

@@ -6,6 +6,7 @@
 #include "tests/support/catch.hpp"
 
 using namespace pl;
+using namespace pl::ui;
 
 TEST_CASE("Turns: short passes go A, B, B, A in turns of equal time") {
     Turns turns(0.25);
