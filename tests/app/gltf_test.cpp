@@ -12,10 +12,10 @@ namespace {
 using nlohmann::ordered_json;
 
 /// A material of nothing but Lambert reflection and emission.
-GltfMaker::Json matte(const MaterialDescription& material) {
+Json matte(const MaterialDescription& material) {
     constexpr float kStrength = 32.0f;  // a power of two: divides without rounding
-    const auto color = [](const glm::vec3& v) { return GltfMaker::Json{v.x, v.y, v.z}; };
-    GltfMaker::Json base = color(material.albedo);
+    const auto color = [](const glm::vec3& v) { return Json{v.x, v.y, v.z}; };
+    Json base = color(material.albedo);
     base.push_back(1);
     return {{"name", material.name},
             {"pbrMetallicRoughness", {{"baseColorFactor", base}, {"metallicFactor", 0}}},
@@ -34,7 +34,7 @@ std::string twin_of(const SceneDescription& scene) {
                                          {"componentType", 5126},
                                          {"type", "VEC3"},
                                          {"count", corners.size()}});
-    GltfMaker::Json primitives = GltfMaker::Json::array();
+    Json primitives = Json::array();
     for (std::size_t i = 0; i < scene.triangles.size();) {
         const std::uint32_t material = scene.triangles[i].material;
         std::vector<std::uint16_t> indices;

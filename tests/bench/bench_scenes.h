@@ -11,7 +11,7 @@
 #include "tests/support/files/temporary_folder.h"
 #include "tests/support/scenes/bumpy_ball.h"
 
-namespace pl::bench {
+namespace pl::benchmarks {
 
 /// `name`: as of the command line, or ball:ROWS for write_bumpy_ball() in the open, room:ROWS for the same in a room. Throws
 /// Error(Usage) for other numbers of rows than 2 to 9999.
@@ -34,4 +34,4 @@ inline SceneDescription open_bench_scene(const std::string& name) {
     return scene;
 }
 
-}  // namespace pl::bench
+}  // namespace pl::benchmarks

@@ -5,7 +5,7 @@
 #include "cpu/parallel_for.h"
 #include "tests/support/peers/embree_scene.h"
 
-namespace pl::bench {
+namespace pl::benchmarks {
 namespace {
 
 template <FeatureSet F>
@@ -58,4 +58,4 @@ double EmbreeLoop::mean() const {
     return sum / static_cast<double>(pixels_.size());
 }
 
-}  // namespace pl::bench
+}  // namespace pl::benchmarks

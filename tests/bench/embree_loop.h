@@ -10,7 +10,7 @@ namespace pl::test {
 class EmbreeScene;
 }
 
-namespace pl::bench {
+namespace pl::benchmarks {
 
 /// Traces one sample for every pixel of its own film per call.
 class EmbreeLoop {
@@ -32,4 +32,4 @@ private:
     int threads_;
 };
 
-}  // namespace pl::bench
+}  // namespace pl::benchmarks

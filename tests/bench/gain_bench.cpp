@@ -21,7 +21,7 @@
 #include "cpu/cpu_backend.h"
 #include "tests/bench/gain_report.h"
 
-namespace pl::bench {
+namespace pl::benchmarks {
 namespace {
 
 /// Scenes where light samples find little of the light: guided references need far fewer samples.
@@ -86,14 +86,14 @@ void run(const GainSetup& setup) {
 }
 
 }  // namespace
-}  // namespace pl::bench
+}  // namespace pl::benchmarks
 
 int main(int argc, char** argv) {
     try {
-        const pl::bench::GainSetup setup = pl::bench::parse_gain_setup(argc, argv);
+        const pl::benchmarks::GainSetup setup = pl::benchmarks::parse_gain_setup(argc, argv);
         for (const auto& [key, number] : setup.numbers) std::printf("%s=%g ", key.c_str(), number);
         std::printf("\n");
-        pl::bench::run(setup);
+        pl::benchmarks::run(setup);
     } catch (const std::exception& error) {
         std::fprintf(stderr, "%s\n", error.what());
         return 1;

@@ -7,7 +7,7 @@
 
 #include "core/measure/convergence.h"
 
-namespace pl::bench {
+namespace pl::benchmarks {
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
@@ -90,4 +90,4 @@ std::vector<GainFigures> gain_figures(const std::vector<GainRun>& base, const st
     return figures;
 }
 
-}  // namespace pl::bench
+}  // namespace pl::benchmarks

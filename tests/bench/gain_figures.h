@@ -7,7 +7,7 @@
 #include "core/measure/statistics.h"
 #include "tests/bench/gain_run.h"
 
-namespace pl::bench {
+namespace pl::benchmarks {
 
 using Intervals = std::array<Interval, kErrorNames.size()>;
 
@@ -31,4 +31,4 @@ double error_at_time(const GainRun& run, std::size_t error, double seconds);
 std::vector<GainFigures> gain_figures(const std::vector<GainRun>& base, const std::vector<GainRun>& method,
                                       const RunLength& length);
 
-}  // namespace pl::bench
+}  // namespace pl::benchmarks

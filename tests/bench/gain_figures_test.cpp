@@ -5,7 +5,7 @@
 
 #include "tests/support/catch.hpp"
 
-namespace pl::bench {
+namespace pl::benchmarks {
 namespace {
 
 /// A run with the error `factor` / samples in all metrics, every sample taking `seconds`.
@@ -58,4 +58,4 @@ TEST_CASE("an error below the resolution of the reference makes no gain") {
     CHECK_THAT(figures[0].equal_time[0].value, WithinRel(1.0, 1e-12));
 }
 
-}  // namespace pl::bench
+}  // namespace pl::benchmarks

@@ -7,7 +7,7 @@
 
 #include "core/bench/bench_results.h"
 
-namespace pl::bench {
+namespace pl::benchmarks {
 namespace {
 
 const std::string kBase{info_of(MethodId::Default).name};
@@ -47,7 +47,7 @@ Json intervals_json(const Intervals& values) {
     return json;
 }
 
-Json bench::run_json(const GainRun& run) {
+Json run_json(const GainRun& run) {
     Json points = Json::array();
     for (const Checkpoint& point : run.points) {
         Json json{{"samples", point.samples}, {"seconds", point.seconds}};
@@ -72,7 +72,7 @@ Json method_json(const GainResult& result, const std::string& method, const std:
         }
         json["lengths"].push_back(row);
     }
-    for (const GainRun& run : runs) json["runs"].push_back(bench::run_json(run));
+    for (const GainRun& run : runs) json["runs"].push_back(run_json(run));
     return json;
 }
 
@@ -111,4 +111,4 @@ Json gain_file(const GainSetup& setup, const MachineLoad::Shares& load, const Js
             {"results", results}};
 }
 
-}  // namespace pl::bench
+}  // namespace pl::benchmarks

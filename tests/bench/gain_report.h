@@ -11,7 +11,7 @@
 #include "tests/bench/gain_setup.h"
 #include "tests/bench/machine_load.h"
 
-namespace pl::bench {
+namespace pl::benchmarks {
 
 /// Runs of a scene with or without light samples, by method.
 struct GainResult {
@@ -34,4 +34,4 @@ Json gains_json(const GainResult& result);
 /// The file: settings, load of the machine, and results.
 Json gain_file(const GainSetup& setup, const MachineLoad::Shares& load, const Json& results);
 
-}  // namespace pl::bench
+}  // namespace pl::benchmarks

@@ -8,7 +8,7 @@
 #include "cpu/cpu_backend.h"
 #include "tests/bench/uniform_sampling.h"
 
-namespace pl::bench {
+namespace pl::benchmarks {
 namespace {
 
 bool is_checkpoint(const RunLength& length, std::uint32_t samples) {
@@ -76,4 +76,4 @@ GainRun measure_uniform(const RunSetting& setting, std::uint64_t seed) {
     return {.seed = seed, .points = {{samples, 0.0, errors_of(picture, setting.reference)}}};
 }
 
-}  // namespace pl::bench
+}  // namespace pl::benchmarks

@@ -9,7 +9,7 @@
 #include "core/measure/metrics.h"
 #include "core/session/settings.h"
 
-namespace pl::bench {
+namespace pl::benchmarks {
 
 /// Names of the squared errors: of all pixels, without the worst 0.1 % and without the worst 1 %.
 inline constexpr std::array kErrorNames{"mse", "mse_0.1", "mse_1", "relmse", "relmse_0.1", "relmse_1"};
@@ -50,4 +50,4 @@ GainRun measure_run(const RunSetting& setting, MethodId method, std::uint64_t se
 /// A run of the yardstick of uniform_sampling.h: one checkpoint at the last of the wanted samples, without time.
 GainRun measure_uniform(const RunSetting& setting, std::uint64_t seed);
 
-}  // namespace pl::bench
+}  // namespace pl::benchmarks

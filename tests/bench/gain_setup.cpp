@@ -6,7 +6,7 @@
 #include "core/base/error.h"
 #include "core/io/load_scene.h"
 
-namespace pl::bench {
+namespace pl::benchmarks {
 namespace {
 
 namespace fs = std::filesystem;
@@ -93,4 +93,4 @@ RenderSettings settings_of(const GainSetup& setup, const SceneDescription& scene
     return settings;
 }
 
-}  // namespace pl::bench
+}  // namespace pl::benchmarks

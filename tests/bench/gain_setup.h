@@ -9,7 +9,7 @@
 #include "core/session/settings.h"
 #include "tests/bench/gain_run.h"
 
-namespace pl::bench {
+namespace pl::benchmarks {
 
 struct GainSetup {
     /// Keys with numbers.
@@ -50,4 +50,4 @@ GainSetup parse_gain_setup(int count, char** words);
 /// For every run but for method, seed and light samples.
 RenderSettings settings_of(const GainSetup& setup, const SceneDescription& scene);
 
-}  // namespace pl::bench
+}  // namespace pl::benchmarks

@@ -21,7 +21,7 @@
 #include "tests/bench/quartiles.h"
 #include "tests/support/field/linear_search.h"
 
-namespace pl::bench {
+namespace pl::benchmarks {
 namespace {
 
 constexpr std::uint32_t kPoints = 1u << 18;
@@ -128,10 +128,10 @@ bool measure(const HostScene& scene, const std::vector<SurfacePoint>& points, in
 }
 
 }  // namespace
-}  // namespace pl::bench
+}  // namespace pl::benchmarks
 
 int main(int count, char** arguments) try {
-    using namespace pl::bench;
+    using namespace pl::benchmarks;
     const std::string name = count > 1 ? arguments[1] : "cornell";
     const int rounds = count > 2 ? std::max(1, std::atoi(arguments[2])) : 9;
     const pl::SceneDescription description = pl::load_scene(name, PL_SOURCE_DIR "/assets");

@@ -7,7 +7,7 @@
 
 #include "core/base/timer.h"
 
-namespace pl::bench {
+namespace pl::benchmarks {
 
 /// Begun before a measurement and read after it. All in processors: 1 is one busy core.
 class MachineLoad {
@@ -45,4 +45,4 @@ private:
     Reading start_;
 };
 
-}  // namespace pl::bench
+}  // namespace pl::benchmarks

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-namespace pl::bench {
+namespace pl::benchmarks {
 
 struct Quartiles {
     double lower, median, upper;
@@ -23,4 +23,4 @@ inline Quartiles quartiles_of(std::vector<double> values) {
     return {at(0.25), at(0.5), at(0.75)};
 }
 
-}  // namespace pl::bench
+}  // namespace pl::benchmarks

@@ -22,7 +22,7 @@
 #include "tests/support/files/temporary_folder.h"
 #include "tests/support/scenes/bumpy_ball.h"
 
-namespace pl::bench {
+namespace pl::benchmarks {
 namespace {
 
 const std::filesystem::path kAssets = std::filesystem::path(PL_SOURCE_DIR) / "assets";
@@ -140,7 +140,7 @@ void measure(const std::string& name, int threads) {
 }
 
 }  // namespace
-}  // namespace pl::bench
+}  // namespace pl::benchmarks
 
 int main(int argc, char** argv) {
     const int threads = argc > 1 ? std::atoi(argv[1]) : 2;
@@ -148,10 +148,10 @@ int main(int argc, char** argv) {
         std::fprintf(stderr, "usage: scale_bench [THREADS [SCENE...]]\n");
         return 2;
     }
-    for (int i = 2; i < argc; ++i) pl::bench::measure(argv[i], threads);
+    for (int i = 2; i < argc; ++i) pl::benchmarks::measure(argv[i], threads);
     if (argc > 2) return 0;
     for (const std::size_t rows : {51u, 159u, 501u}) {
         const pl::test::TemporaryFolder folder;
-        pl::bench::measure(pl::test::write_bumpy_ball(folder.path(), rows).string(), threads);
+        pl::benchmarks::measure(pl::test::write_bumpy_ball(folder.path(), rows).string(), threads);
     }
 }

@@ -18,7 +18,7 @@
 #include "tests/bench/machine_load.h"
 #include "tests/bench/quartiles.h"
 
-namespace pl::bench {
+namespace pl::benchmarks {
 namespace {
 
 constexpr int kSide = 512;      ///< of the picture
@@ -122,7 +122,7 @@ void measure(const Common& common, const std::vector<MethodInfo>& methods, int r
 }
 
 }  // namespace
-}  // namespace pl::bench
+}  // namespace pl::benchmarks
 
 int main(int count, char** arguments) try {
     const auto word = [&](int index, const char* otherwise) {
@@ -132,20 +132,20 @@ int main(int count, char** arguments) try {
     const int volumes = count > 2 ? std::atoi(arguments[2]) : 0;
     const int rounds = count > 3 ? std::max(1, std::atoi(arguments[3])) : 15;
     const int threads = count > 4 ? std::max(1, std::atoi(arguments[4])) : 1;
-    const std::vector<bool> light_samples = pl::bench::light_samples_of(word(5, "both"));
-    const std::vector<pl::MethodInfo> methods = pl::bench::methods_of(word(6, "all"));
+    const std::vector<bool> light_samples = pl::benchmarks::light_samples_of(word(5, "both"));
+    const std::vector<pl::MethodInfo> methods = pl::benchmarks::methods_of(word(6, "all"));
     const pl::CpuSettings cpu{.threads = threads};
-    const pl::bench::MachineLoad load;
+    const pl::benchmarks::MachineLoad load;
     std::printf("%s, %d volumes (0: the default), %d threads: ns per segment, as a multiple of `default` with "
                 "the same light samples, and for learning\n",
                 scene.c_str(), volumes, threads);
     std::printf("%-14s %-5s %8s %8s %8s %13s %8s   picture\n", "method", "light", "median", "least", "ratio",
                 "[quartiles]", "learning");
-    const auto description = std::make_shared<const pl::SceneDescription>(pl::bench::open_bench_scene(scene));
+    const auto description = std::make_shared<const pl::SceneDescription>(pl::benchmarks::open_bench_scene(scene));
     for (const bool light : light_samples)
-        pl::bench::measure({.scene = description, .volumes = volumes, .cpu = cpu, .light_samples = light}, methods,
-                           rounds);
-    const pl::bench::MachineLoad::Shares shares = load.shares();
+        pl::benchmarks::measure({.scene = description, .volumes = volumes, .cpu = cpu, .light_samples = light},
+                                methods, rounds);
+    const pl::benchmarks::MachineLoad::Shares shares = load.shares();
     std::printf("processors busy: %.2f with this, %.2f with other work, %.2f stolen\n", shares.own, shares.foreign,
                 shares.stolen);
     return 0;

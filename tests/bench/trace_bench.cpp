@@ -20,7 +20,7 @@
 #include "tests/bench/machine_load.h"
 #include "tests/bench/quartiles.h"
 
-namespace pl::bench {
+namespace pl::benchmarks {
 namespace {
 
 constexpr int kSize = 512;
@@ -175,15 +175,15 @@ void compare(const SceneDescription& description, int threads, bool next_event, 
 }
 
 }  // namespace
-}  // namespace pl::bench
+}  // namespace pl::benchmarks
 
 int main(int count, char** arguments) try {
     const std::string name = count > 1 ? arguments[1] : "cornell";
     const int pairs = count > 2 ? std::max(1, std::atoi(arguments[2])) : 15;
-    const pl::SceneDescription scene = pl::bench::open_bench_scene(name);
-    std::printf("%s, %d x %d\n", scene.name.c_str(), pl::bench::kSize, pl::bench::kSize);
+    const pl::SceneDescription scene = pl::benchmarks::open_bench_scene(name);
+    std::printf("%s, %d x %d\n", scene.name.c_str(), pl::benchmarks::kSize, pl::benchmarks::kSize);
     for (const bool next_event : {false, true})
-        for (const int threads : {1, 2}) pl::bench::compare(scene, threads, next_event, pairs);
+        for (const int threads : {1, 2}) pl::benchmarks::compare(scene, threads, next_event, pairs);
     return 0;
 } catch (const pl::Error& error) {
     std::fprintf(stderr, "%s\n", error.what());

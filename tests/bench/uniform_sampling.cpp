@@ -5,7 +5,7 @@
 #include "core/kernel/methods/default.h"
 #include "core/scene/pack_scene.h"
 
-namespace pl::bench {
+namespace pl::benchmarks {
 namespace {
 
 constexpr float kUniformPdf = 0.5f * kInvPi;  // per steradian of the hemisphere
@@ -67,4 +67,4 @@ std::vector<Vec3f> render_uniform(const SceneDescription& scene, const RenderSet
     return render_with<kEveryFeature.without(Feature::NextEventEstimation)>(packed, settings, samples, threads);
 }
 
-}  // namespace pl::bench
+}  // namespace pl::benchmarks

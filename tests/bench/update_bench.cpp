@@ -14,7 +14,7 @@
 #include "tests/bench/quartiles.h"
 #include "tests/support/field/random_tables.h"
 
-namespace pl::bench {
+namespace pl::benchmarks {
 namespace {
 
 using UpdateFn = std::function<void(const TableUpdateView&, std::uint32_t volume)>;
@@ -89,16 +89,16 @@ bool measure(std::size_t volumes, int bins, int rounds) {
 }
 
 }  // namespace
-}  // namespace pl::bench
+}  // namespace pl::benchmarks
 
 int main(int count, char** arguments) {
     const int volumes = count > 1 ? std::max(1, std::atoi(arguments[1])) : 1000;
     const int bins = count > 2 ? std::max(1, std::atoi(arguments[2])) : 256;
     const int rounds = count > 3 ? std::max(1, std::atoi(arguments[3])) : 101;
-    const pl::bench::MachineLoad load;
+    const pl::benchmarks::MachineLoad load;
     std::printf("%d volumes of %d cells: ns per volume, times as fast as scalar\n", volumes, bins);
-    const bool same = pl::bench::measure(static_cast<std::size_t>(volumes), bins, rounds);
-    const pl::bench::MachineLoad::Shares shares = load.shares();
+    const bool same = pl::benchmarks::measure(static_cast<std::size_t>(volumes), bins, rounds);
+    const pl::benchmarks::MachineLoad::Shares shares = load.shares();
     std::printf("processors busy: %.2f with this, %.2f with other work, %.2f stolen\n", shares.own, shares.foreign,
                 shares.stolen);
     if (!same) std::printf("the versions disagree\n");

@@ -129,7 +129,7 @@ void run_obj(std::string_view bytes) {
     compare_readers(bytes.substr(0, cut));
 }
 
-void bench::run_json(std::string_view bytes) {
+void run_json(std::string_view bytes) {
     folder().write(
         "s.obj", "mtllib m.mtl\ng a\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\ng b\nusemtl n\nv 0 0 1\nv 1 0 1\n"
                  "v 0 1 1\nf 4 5 6\n");

@@ -7,7 +7,6 @@
 #include "core/measure/live_runs.h"
 
 namespace pl::test {
-using namespace pl::ui;
 
 inline constexpr std::uint64_t kThisPicture = 7;
 

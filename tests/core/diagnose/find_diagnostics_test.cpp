@@ -9,6 +9,7 @@
 #include "tests/support/session/small_settings.h"
 
 using namespace pl;
+using namespace pl::diagnose;
 using namespace pl::test;
 
 namespace {
@@ -44,10 +45,9 @@ TEST_CASE("Find diagnostics: invalid samples are located where the film counts t
         INFO(info_of(method).name << ", " << invalid);
         REQUIRE(invalid > 60);
         REQUIRE(invalid < snapshot.counters.paths / 2);
-        const diagnose::DiagnosticsMap map =
-            diagnose::find_diagnostics(diagnose::diagnostics_input(session, slot_of(session.settings())), 2);
+        const DiagnosticsMap map = find_diagnostics(diagnostics_input(session, slot_of(session.settings())), 2);
         CHECK(map.is_complete);
-        CHECK(map.count(diagnose::DiagnosticKind::InvalidSample) == invalid);
+        CHECK(map.count(DiagnosticKind::InvalidSample) == invalid);
         std::size_t nothing_else = 0;
         for (std::size_t i = 0; i < map.pixels.size(); ++i) {
             CHECK(map.pixels[i][0] <= kPasses);
@@ -67,19 +67,19 @@ TEST_CASE("Find diagnostics: paths that are traced again escape as often as in t
             const Session session = session_after(scene, small_settings(scene, {method, next_event}), 3);
             const std::uint64_t escaped = session.summary(slot_of(session.settings())).counters.path.escaped;
             REQUIRE(escaped > 100);
-            diagnose::DiagnosticsInput source = diagnose::diagnostics_input(session, slot_of(session.settings()));
+            DiagnosticsInput source = diagnostics_input(session, slot_of(session.settings()));
             CHECK_FALSE(source.passes.is_closed);
-            const diagnose::DiagnosticsMap open = diagnose::find_diagnostics(source, 1);
-            CHECK(open.count(diagnose::DiagnosticKind::EscapedPath) == 0);
+            const DiagnosticsMap open = find_diagnostics(source, 1);
+            CHECK(open.count(DiagnosticKind::EscapedPath) == 0);
             CHECK(open.is_complete);
 
             source.passes.is_closed = true;
-            source.counted[index_of(diagnose::DiagnosticKind::EscapedPath)] = escaped;
-            const diagnose::DiagnosticsMap map = diagnose::find_diagnostics(source, 2);
-            CHECK(map.count(diagnose::DiagnosticKind::EscapedPath) == escaped);
+            source.counted[index_of(DiagnosticKind::EscapedPath)] = escaped;
+            const DiagnosticsMap map = find_diagnostics(source, 2);
+            CHECK(map.count(DiagnosticKind::EscapedPath) == escaped);
             CHECK(map.is_complete);
-            CHECK(map.pixel_count(diagnose::DiagnosticKind::EscapedPath) > 10);
-            CHECK(diagnose::find_diagnostics(source, 1).pixels == map.pixels);
+            CHECK(map.pixel_count(DiagnosticKind::EscapedPath) > 10);
+            CHECK(find_diagnostics(source, 1).pixels == map.pixels);
         }
 }
 
@@ -88,13 +88,13 @@ TEST_CASE("Find diagnostics: a pass under way is part of the picture") {
     Session session = session_after(scene, small_settings(scene, {MethodId::Default, false}, 256, 256), 1);
     StopFlag stop{true};
     REQUIRE(session.advance(slot_of(session.settings()), &stop) == Progress::Stopped);
-    diagnose::DiagnosticsInput source = diagnose::diagnostics_input(session, slot_of(session.settings()));
+    DiagnosticsInput source = diagnostics_input(session, slot_of(session.settings()));
     source.passes.next_pixel = 5000;  // as if it had come so far
     source.passes.is_closed = true;
-    source.counted[index_of(diagnose::DiagnosticKind::EscapedPath)] = ~std::uint64_t{0};
-    const diagnose::DiagnosticsMap both = diagnose::find_diagnostics(source, 2);
+    source.counted[index_of(DiagnosticKind::EscapedPath)] = ~std::uint64_t{0};
+    const DiagnosticsMap both = find_diagnostics(source, 2);
     source.passes.next_pixel = 0;
-    const diagnose::DiagnosticsMap one = diagnose::find_diagnostics(source, 2);
+    const DiagnosticsMap one = find_diagnostics(source, 2);
     std::size_t more_before = 0;
     for (std::size_t i = 0; i < one.pixels.size(); ++i) {
         more_before += both.pixels[i] != one.pixels[i] && i < 5000 ? 1u : 0u;
@@ -110,41 +110,40 @@ TEST_CASE("Find diagnostics: lookup misses are located, all of them") {
     const Session session = session_after(scene, settings, 3);
     const std::uint64_t misses = session.summary(slot_of(session.settings())).counters.path.method.lookup_misses;
     REQUIRE(misses > 100);
-    const diagnose::DiagnosticsMap map =
-        diagnose::find_diagnostics(diagnose::diagnostics_input(session, slot_of(session.settings())), 2);
-    CHECK(map.count(diagnose::DiagnosticKind::LookupMiss) == misses);
+    const DiagnosticsMap map = find_diagnostics(diagnostics_input(session, slot_of(session.settings())), 2);
+    CHECK(map.count(DiagnosticKind::LookupMiss) == misses);
 }
 
 TEST_CASE("Find diagnostics: training samples are clamped where the field is too bright, and nowhere else") {
     const SceneDescription scene = shipped_scene("cornell");
     const Session session = session_after(scene, small_settings(scene, {MethodId::Reinforcement, false}), 3);
-    diagnose::DiagnosticsInput source = diagnose::diagnostics_input(session, slot_of(session.settings()));
+    DiagnosticsInput source = diagnostics_input(session, slot_of(session.settings()));
     CHECK(source.passes.repeats_training);
     CHECK(source.passes.has_moving_tables);
     CHECK(source.passes.first_sample == 0);
-    CHECK(source.counted[index_of(diagnose::DiagnosticKind::ClampedSample)] == 0);
-    CHECK(diagnose::find_diagnostics(source, 2).traced == 0);
-    source.counted[index_of(diagnose::DiagnosticKind::ClampedSample)] = ~std::uint64_t{0};
-    const diagnose::DiagnosticsMap sound = diagnose::find_diagnostics(source, 2);
+    CHECK(source.counted[index_of(DiagnosticKind::ClampedSample)] == 0);
+    CHECK(find_diagnostics(source, 2).traced == 0);
+    source.counted[index_of(DiagnosticKind::ClampedSample)] = ~std::uint64_t{0};
+    const DiagnosticsMap sound = find_diagnostics(source, 2);
     CHECK(sound.is_complete);
     CHECK(sound.traced == 3);
-    CHECK(sound.count(diagnose::DiagnosticKind::ClampedSample) == 0);
+    CHECK(sound.count(DiagnosticKind::ClampedSample) == 0);
 
     for (float& mean : tables_of(source.passes.field).mean_radiance) mean = 1e6f * source.passes.shape.radiance_unit;
-    CHECK(diagnose::find_diagnostics(source, 2).count(diagnose::DiagnosticKind::ClampedSample) > 1000);
+    CHECK(find_diagnostics(source, 2).count(DiagnosticKind::ClampedSample) > 1000);
 }
 
 TEST_CASE(
     "Find diagnostics: clamped training samples alone end the search after sixteen passes, other kinds after all") {
     const SceneDescription scene = shipped_scene("cornell");
     const Session session = session_after(scene, small_settings(scene, {MethodId::Reinforcement, false}, 12, 8), 20);
-    diagnose::DiagnosticsInput source = diagnose::diagnostics_input(session, slot_of(session.settings()));
-    ++source.counted[index_of(diagnose::DiagnosticKind::ClampedSample)];
-    const diagnose::DiagnosticsMap some = diagnose::find_diagnostics(source, 1);
+    DiagnosticsInput source = diagnostics_input(session, slot_of(session.settings()));
+    ++source.counted[index_of(DiagnosticKind::ClampedSample)];
+    const DiagnosticsMap some = find_diagnostics(source, 1);
     CHECK(some.is_complete);
     CHECK(some.traced == 16);
-    ++source.counted[index_of(diagnose::DiagnosticKind::LookupMiss)];
-    const diagnose::DiagnosticsMap all = diagnose::find_diagnostics(source, 1);
+    ++source.counted[index_of(DiagnosticKind::LookupMiss)];
+    const DiagnosticsMap all = find_diagnostics(source, 1);
     CHECK(all.is_complete);
     CHECK(all.traced == 20);
 }
@@ -152,12 +151,12 @@ TEST_CASE(
 TEST_CASE("Find diagnostics: a view without paths has none, nor has a session before its first pass") {
     const SceneDescription scene = shipped_scene("cornell");
     RenderSettings settings = small_settings(scene, {MethodId::Reinforcement, false});
-    const diagnose::DiagnosticsMap empty =
-        diagnose::find_diagnostics(diagnose::diagnostics_input(make_session(scene, settings), slot_of(settings)), 2);
+    const DiagnosticsMap empty =
+        find_diagnostics(diagnostics_input(make_session(scene, settings), slot_of(settings)), 2);
     CHECK(empty.is_complete);
     CHECK(empty.traced == 0);
     settings.view = View::Normal;
-    CHECK_THROWS_AS(diagnose::diagnostics_input(make_session(scene, settings), slot_of(settings)), Error);
+    CHECK_THROWS_AS(diagnostics_input(make_session(scene, settings), slot_of(settings)), Error);
 }
 
 TEST_CASE("Find diagnostics: a search that is stopped keeps its findings") {
@@ -165,9 +164,9 @@ TEST_CASE("Find diagnostics: a search that is stopped keeps its findings") {
     const Session session = session_after(scene, small_settings(scene, {MethodId::Reinforcement, false}), 5);
     StopFlag stop{false};
     double seen = 0.0;
-    diagnose::DiagnosticsInput source = diagnose::diagnostics_input(session, slot_of(session.settings()));
-    ++source.counted[index_of(diagnose::DiagnosticKind::ClampedSample)];
-    const diagnose::DiagnosticsMap map = diagnose::find_diagnostics(source, 2, &stop, [&](double share) {
+    DiagnosticsInput source = diagnostics_input(session, slot_of(session.settings()));
+    ++source.counted[index_of(DiagnosticKind::ClampedSample)];
+    const DiagnosticsMap map = find_diagnostics(source, 2, &stop, [&](double share) {
         seen = share;
         stop = share > 0.3;
     });

@@ -10,14 +10,15 @@
 #include "tests/support/session/small_settings.h"
 
 using namespace pl;
+using namespace pl::diagnose;
 using namespace pl::test;
 
 namespace {
 
 constexpr std::uint32_t kPixel = 20 * 61 + 30;
 
-diagnose::PixelNoise noise_of(const Session& session, std::uint32_t pixel, std::uint32_t paths) {
-    diagnose::PixelNoiseTracer tracer(diagnose::pass_pair(session, slot_of(session)), pixel);
+PixelNoise noise_of(const Session& session, std::uint32_t pixel, std::uint32_t paths) {
+    PixelNoiseTracer tracer(pass_pair(session, slot_of(session)), pixel);
     while (tracer.paths() < paths) REQUIRE(tracer.advance());
     return tracer.noise();
 }
@@ -28,7 +29,7 @@ Session lit_floor(const SceneDescription& scene, bool next_event) {
     return session;
 }
 
-double share(const diagnose::PixelEstimate& estimate, diagnose::FoundBy technique) {
+double share(const PixelEstimate& estimate, FoundBy technique) {
     return estimate.shares->found_by[static_cast<std::size_t>(technique)].value;
 }
 
@@ -40,7 +41,7 @@ double share(const diagnose::PixelEstimate& estimate, diagnose::FoundBy techniqu
 TEST_CASE("the variance of a floor under a lamp, by BSDF sampling, is that of a coin") {
     const LampOverFloor lamp = lamp_above(0.1f, 0.05f);
     const Session session = lit_floor(lamp.scene, false);
-    const diagnose::PixelEstimate estimate = noise_of(session, 8 * 16 + 8, 65536).plain;
+    const PixelEstimate estimate = noise_of(session, 8 * 16 + 8, 65536).plain;
     const double albedo = static_cast<double>(rectangle_detail::kAlbedo);
     const double factor = lamp.floor_radiance / albedo;
     CAPTURE(factor, estimate.mean.value, estimate.variance.value, estimate.variance.low, estimate.variance.high);
@@ -48,7 +49,7 @@ TEST_CASE("the variance of a floor under a lamp, by BSDF sampling, is that of a 
     CHECK(estimate.variance.high - estimate.variance.low < 0.04 * expected);
     CHECK_THAT(estimate.variance.value, WithinAbs(expected, estimate.variance.high - estimate.variance.low));
     CHECK_THAT(estimate.mean.value, WithinAbs(lamp.floor_radiance, estimate.mean.high - estimate.mean.low));
-    CHECK_THAT(share(estimate, diagnose::FoundBy::Bsdf), WithinAbs(1.0, 1.0e-12));
+    CHECK_THAT(share(estimate, FoundBy::Bsdf), WithinAbs(1.0, 1.0e-12));
     CHECK_THAT(estimate.shares->bounces[1].value, WithinAbs(1.0, 1.0e-12));
     CHECK_THAT(estimate.shares->lights[0].value, WithinAbs(1.0, 1.0e-12));
 }
@@ -58,24 +59,23 @@ TEST_CASE("the variance of a floor under a lamp, by BSDF sampling, is that of a 
 TEST_CASE("with light samples the noise of a floor under a lamp is that of both techniques, each by itself") {
     const LampOverFloor lamp = lamp_above(0.1f, 0.05f);
     const Session session = lit_floor(lamp.scene, true);
-    const diagnose::PixelEstimate estimate = noise_of(session, 8 * 16 + 8, 16384).plain;
-    diagnose::PassPair passes = diagnose::pass_pair(session, slot_of(session));
+    const PixelEstimate estimate = noise_of(session, 8 * 16 + 8, 16384).plain;
+    PassPair passes = pass_pair(session, slot_of(session));
     Moments light;
     Moments scattered;
     for (std::uint32_t pass = 0; pass < 16384; ++pass) {
         double parts[2] = {0.0, 0.0};
-        for (const Contribution& part :
-             diagnose::contributions_of(diagnose::record_path(passes.plain, {}, 8 * 16 + 8, pass)))
-            parts[part.found_by == diagnose::FoundBy::LightSampling ? 0 : 1] += part.light;
+        for (const Contribution& part : contributions_of(record_path(passes.plain, {}, 8 * 16 + 8, pass)))
+            parts[part.found_by == FoundBy::LightSampling ? 0 : 1] += part.light;
         light.add(parts[0]);
         scattered.add(parts[1]);
     }
     const double expected = light.variance() / (light.variance() + scattered.variance());
-    const Interval& got = estimate.shares->found_by[static_cast<std::size_t>(diagnose::FoundBy::LightSampling)];
+    const Interval& got = estimate.shares->found_by[static_cast<std::size_t>(FoundBy::LightSampling)];
     CAPTURE(expected, got.value, got.low, got.high);
     CHECK(got.high - got.low < 0.1);
     CHECK_THAT(got.value, WithinAbs(expected, 2.0 * (got.high - got.low)));
-    CHECK_THAT(share(estimate, diagnose::FoundBy::Bsdf), WithinAbs(1.0 - got.value, 1.0e-12));
+    CHECK_THAT(share(estimate, FoundBy::Bsdf), WithinAbs(1.0 - got.value, 1.0e-12));
     CHECK_THAT(estimate.shares->bounces[1].value, WithinAbs(1.0, 1.0e-12));
 }
 
@@ -84,37 +84,37 @@ TEST_CASE("contributions are all of a path's light") {
     Session session = make_session(scene, small_settings(scene, {MethodId::Reinforcement, true}));
     render_passes(session, 4);
     PassReplay passes = session.pass_replay(slot_of(session));
-    const AnyFieldView field = diagnose::field_of(passes);
-    std::array<int, diagnose::kFoundByCount> found{};
+    const AnyFieldView field = field_of(passes);
+    std::array<int, kFoundByCount> found{};
     for (std::uint32_t pixel = 0; pixel < 61 * 47; pixel += 7) {
-        const diagnose::PathRecord path = diagnose::record_path(passes, field, pixel, 4);
+        const PathRecord path = record_path(passes, field, pixel, 4);
         double sum = 0.0;
-        for (const Contribution& part : diagnose::contributions_of(path)) {
+        for (const Contribution& part : contributions_of(path)) {
             sum += part.light;
             ++found[static_cast<std::size_t>(part.found_by)];
-            CHECK((part.found_by == diagnose::FoundBy::Camera) == (part.bounces == 0));
+            CHECK((part.found_by == FoundBy::Camera) == (part.bounces == 0));
         }
-        CHECK_THAT(sum, WithinAbs(static_cast<double>(diagnose::path_light(path)), 1.0e-5 * (1.0 + sum)));
+        CHECK_THAT(sum, WithinAbs(static_cast<double>(path_light(path)), 1.0e-5 * (1.0 + sum)));
     }
-    CHECK(found[static_cast<std::size_t>(diagnose::FoundBy::LightSampling)] > 0);
-    CHECK(found[static_cast<std::size_t>(diagnose::FoundBy::Field)] > 0);
+    CHECK(found[static_cast<std::size_t>(FoundBy::LightSampling)] > 0);
+    CHECK(found[static_cast<std::size_t>(FoundBy::Field)] > 0);
 }
 
 TEST_CASE("guidance has estimates of its own, with every path guided, and the same figures again") {
     const SceneDescription scene = shipped_scene("door");
     Session session = make_session(scene, small_settings(scene, {MethodId::Reinforcement, false}));
     render_passes(session, 24);
-    const diagnose::PixelNoise noise = noise_of(session, kPixel, 4096);
+    const PixelNoise noise = noise_of(session, kPixel, 4096);
     REQUIRE(noise.guided);
     CHECK(noise.guided_method == MethodId::Reinforcement);
     CHECK(noise.plain.paths == 4096);
     CHECK(noise.guided->paths == 4096);
-    CHECK(share(noise.plain, diagnose::FoundBy::Field) == 0.0);
-    CHECK(share(*noise.guided, diagnose::FoundBy::Field) > 0.5);
+    CHECK(share(noise.plain, FoundBy::Field) == 0.0);
+    CHECK(share(*noise.guided, FoundBy::Field) > 0.5);
     CHECK(noise.plain.seconds_per_path > 0.0);
     REQUIRE(noise.gain);
     CHECK_THAT(noise.gain->net.value, WithinRel(noise.gain->samples.value * noise.gain->cost.value, 1.0e-9));
-    const diagnose::PixelNoise again = noise_of(session, kPixel, 4096);
+    const PixelNoise again = noise_of(session, kPixel, 4096);
     CHECK(again.guided->variance.value == noise.guided->variance.value);
     CHECK(again.plain.mean.value == noise.plain.mean.value);
     CHECK(again.gain->samples.low == noise.gain->samples.low);
@@ -128,7 +128,7 @@ TEST_CASE("the noise needs a path in every group, and a stop ends it") {
     const SceneDescription scene = shipped_scene("cornell");
     Session session = make_session(scene, small_settings(scene, {MethodId::Default, false}));
     render_passes(session, 1);
-    diagnose::PixelNoiseTracer tracer(diagnose::pass_pair(session, slot_of(session)), kPixel);
+    PixelNoiseTracer tracer(pass_pair(session, slot_of(session)), kPixel);
     StopFlag stop{true};
     CHECK_FALSE(tracer.advance(&stop));
     CHECK(tracer.paths() == 0);

@@ -10,6 +10,7 @@
 #include "tests/support/session/small_settings.h"
 
 using namespace pl;
+using namespace pl::diagnose;
 using namespace pl::test;
 
 namespace {
@@ -27,16 +28,16 @@ Session rendered(const SceneDescription& scene, Estimator estimator, std::uint32
 TEST_CASE("Pixel paths: the mean of all paths of a pixel is its value in the picture") {
     const SceneDescription scene = shipped_scene("cornell");
     const Session session = rendered(scene, {MethodId::Default, true}, 40);
-    diagnose::PassPair passes = diagnose::pass_pair(session, slot_of(session));
+    PassPair passes = pass_pair(session, slot_of(session));
     CHECK_FALSE(passes.shows_guided);
     CHECK_FALSE(passes.guided.has_value());  // nothing has been learned
-    const diagnose::PixelPaths paths = diagnose::trace_pixel(passes, {.pixel = kPixel, .count = 40});
+    const PixelPaths paths = trace_pixel(passes, {.pixel = kPixel, .count = 40});
     REQUIRE(paths.plain.size() == 40);
     CHECK(paths.samples == 40);
     CHECK(paths.searched == 40);
     CHECK(paths.guided.empty());
     glm::dvec3 sum{0.0};
-    for (const diagnose::PathRecord& path : paths.plain) sum += glm::dvec3(path.radiance);
+    for (const PathRecord& path : paths.plain) sum += glm::dvec3(path.radiance);
     const Vec3f value = session.snapshot(slot_of(session)).pixels[kPixel];
     CHECK(glm::length(sum / 40.0 - glm::dvec3(value)) < 1.0e-6 * glm::length(glm::dvec3(value)));
     CHECK(luminance(value) > 0.0f);
@@ -45,17 +46,16 @@ TEST_CASE("Pixel paths: the mean of all paths of a pixel is its value in the pic
 TEST_CASE("Pixel paths: the brightest of all passes come first, the newest are the last passes") {
     const SceneDescription scene = shipped_scene("cornell");
     const Session session = rendered(scene, {MethodId::Default, true}, 50);
-    diagnose::PassPair passes = diagnose::pass_pair(session, slot_of(session));
-    const diagnose::PixelPaths all = diagnose::trace_pixel(passes, {.pixel = kPixel, .count = 50});
-    const diagnose::PixelPaths brightest = diagnose::trace_pixel(passes, {.pixel = kPixel, .count = 7});
+    PassPair passes = pass_pair(session, slot_of(session));
+    const PixelPaths all = trace_pixel(passes, {.pixel = kPixel, .count = 50});
+    const PixelPaths brightest = trace_pixel(passes, {.pixel = kPixel, .count = 7});
     CHECK(brightest.searched == 50);
     REQUIRE(brightest.passes.size() == 7);
     CHECK(std::ranges::equal(brightest.passes, std::span(all.passes).first(7)));
     CHECK(std::ranges::is_sorted(brightest.plain, std::ranges::greater{}, path_light));
-    CHECK(diagnose::path_light(all.plain.front()) > diagnose::path_light(all.plain.back()));
+    CHECK(path_light(all.plain.front()) > path_light(all.plain.back()));
 
-    const diagnose::PixelPaths newest =
-        diagnose::trace_pixel(passes, {.pixel = kPixel, .count = 7, .choice = diagnose::PassChoice::Newest});
+    const PixelPaths newest = trace_pixel(passes, {.pixel = kPixel, .count = 7, .choice = PassChoice::Newest});
     CHECK(newest.searched == 7);
     std::vector<std::uint32_t> numbers = newest.passes;
     std::ranges::sort(numbers);
@@ -67,19 +67,18 @@ TEST_CASE("Pixel paths: a learner's picture has those of default beside them, by
     const SceneDescription scene = shipped_scene("cornell");
     const Session learned = rendered(scene, {MethodId::Reinforcement, true}, 12);
     const Session plain = rendered(scene, {MethodId::Default, true}, 12);
-    diagnose::PassPair passes = diagnose::pass_pair(learned, slot_of(learned));
+    PassPair passes = pass_pair(learned, slot_of(learned));
     CHECK(passes.shows_guided);
     CHECK(passes.guided_method == MethodId::Reinforcement);
-    const diagnose::PixelPathsRequest newest{.pixel = kPixel, .count = 12, .choice = diagnose::PassChoice::Newest};
-    const diagnose::PixelPaths paths = diagnose::trace_pixel(passes, newest);
+    const PixelPathsRequest newest{.pixel = kPixel, .count = 12, .choice = PassChoice::Newest};
+    const PixelPaths paths = trace_pixel(passes, newest);
     REQUIRE(paths.plain.size() == 12);
     REQUIRE(paths.guided.size() == 12);
     CHECK(std::ranges::is_sorted(paths.guided, std::ranges::greater{}, path_light));
     PassReplay alone = plain.pass_replay(slot_of(plain));
     bool differ = false;
     for (std::size_t i = 0; i < 12; ++i) {
-        const diagnose::PathRecord path =
-            diagnose::record_path(alone, diagnose::field_of(alone), kPixel, paths.passes[i]);
+        const PathRecord path = record_path(alone, field_of(alone), kPixel, paths.passes[i]);
         CHECK(path.radiance == paths.plain[i].radiance);
         CHECK(path.vertices.size() == paths.plain[i].vertices.size());
         CHECK(paths.guided[i].vertices[0].position == path.vertices[0].position);
@@ -96,10 +95,10 @@ TEST_CASE("Pixel paths: a picture of default has the learner's paths by the same
     const FilmSlot learner{MethodId::Reinforcement, View::Beauty};
     render_passes(session, learner, 6);
     render_passes(session, 3);
-    diagnose::PassPair passes = diagnose::pass_pair(session, slot_of(session));
+    PassPair passes = pass_pair(session, slot_of(session));
     REQUIRE(passes.guided.has_value());
     CHECK_FALSE(passes.shows_guided);
-    const diagnose::PixelPaths paths = diagnose::trace_pixel(passes, {.pixel = kPixel, .count = 4});
+    const PixelPaths paths = trace_pixel(passes, {.pixel = kPixel, .count = 4});
     // The picture has three passes; the fourth follows.
     CHECK(paths.samples == 3);
     REQUIRE(paths.guided.size() == 4);
@@ -114,17 +113,17 @@ TEST_CASE("Pixel paths: a picture of default has the learner's paths by the same
 TEST_CASE("Pixel paths: a raised stop flag ends the search, views without paths have none") {
     const SceneDescription scene = shipped_scene("cornell");
     Session session = rendered(scene, {MethodId::Default, false}, 2);
-    diagnose::PassPair passes = diagnose::pass_pair(session, slot_of(session));
+    PassPair passes = pass_pair(session, slot_of(session));
     const StopFlag stop{true};
-    const diagnose::PixelPaths paths = diagnose::trace_pixel(passes, {.pixel = kPixel}, &stop);
+    const PixelPaths paths = trace_pixel(passes, {.pixel = kPixel}, &stop);
     CHECK(paths.searched == 0);
     CHECK(paths.plain.empty());
-    CHECK_THROWS(diagnose::pass_pair(session, {MethodId::Default, View::Normal}));
+    CHECK_THROWS(pass_pair(session, {MethodId::Default, View::Normal}));
 }
 
 TEST_CASE("Pixel paths: the order by light keeps equal paths as they are") {
-    std::vector<diagnose::PathRecord> paths(4);
+    std::vector<PathRecord> paths(4);
     paths[1].radiance = Vec3f{2.0f};
     paths[3].radiance = Vec3f{5.0f};
-    CHECK(diagnose::by_light(paths) == std::vector<std::size_t>{3, 1, 0, 2});
+    CHECK(by_light(paths) == std::vector<std::size_t>{3, 1, 0, 2});
 }

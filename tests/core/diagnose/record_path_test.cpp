@@ -9,6 +9,7 @@
 #include "tests/support/session/small_settings.h"
 
 using namespace pl;
+using namespace pl::diagnose;
 using namespace pl::test;
 
 namespace {
@@ -21,26 +22,26 @@ void come_to_path(Session& session, std::uint32_t pixel) {
 }
 
 /// The paths of the pass under way, each with the field that its part samples from.
-std::vector<diagnose::PathRecord> record_pass(Session& session) {
-    std::vector<diagnose::PathRecord> paths;
+std::vector<PathRecord> record_pass(Session& session) {
+    std::vector<PathRecord> paths;
     const FilmSlot slot = slot_of(session);
     while (paths.size() < kPixels) {
         const auto first = static_cast<std::uint32_t>(paths.size());
         come_to_path(session, first);
         PassReplay passes = session.pass_replay(slot);
-        const AnyFieldView field = diagnose::field_of(passes);
+        const AnyFieldView field = field_of(passes);
         const bool in_parts = info_of(slot.method).learns && passes.first_sample + passes.samples == 0;
         // Parts end at powers of two from 1024 on.
         const std::uint32_t end = in_parts ? std::min(first == 0 ? 1024u : 2 * first, kPixels) : kPixels;
         for (std::uint32_t pixel = first; pixel < end; ++pixel)
-            paths.push_back(diagnose::record_path(passes, field, pixel, passes.samples));
+            paths.push_back(record_path(passes, field, pixel, passes.samples));
     }
     return paths;
 }
 
-std::vector<Vec3f> radiances(const std::vector<diagnose::PathRecord>& paths) {
+std::vector<Vec3f> radiances(const std::vector<PathRecord>& paths) {
     std::vector<Vec3f> radiance;
-    for (const diagnose::PathRecord& path : paths) radiance.push_back(path.radiance);
+    for (const PathRecord& path : paths) radiance.push_back(path.radiance);
     return radiance;
 }
 
@@ -64,23 +65,23 @@ std::vector<Vec3f> render_alone(Session& session) {
 }
 
 /// `absorbs`: glass may absorb light along segments.
-void check_explains(const diagnose::PathRecord& path, bool absorbs = false) {
+void check_explains(const PathRecord& path, bool absorbs = false) {
     REQUIRE(path.segments == path.vertices.size());
     Vec3f sum{0.0f};
     for (std::size_t i = 0; i < path.vertices.size(); ++i) {
-        const diagnose::VertexRecord& vertex = path.vertices[i];
+        const VertexRecord& vertex = path.vertices[i];
         sum += vertex.contribution();
         const bool is_last = i + 1 == path.vertices.size();
         REQUIRE(vertex.scattered.has_value() == !is_last);
         if (!is_last) {
-            const diagnose::ScatterRecord& direction = *vertex.scattered;
-            const diagnose::VertexRecord& next = path.vertices[i + 1];
+            const ScatterRecord& direction = *vertex.scattered;
+            const VertexRecord& next = path.vertices[i + 1];
             const Vec3f share = next.throughput / glm::max(direction.throughput, Vec3f{1e-30f});
             CHECK((absorbs ? max_component(share) <= 1.0f : next.throughput == direction.throughput));
-            CHECK((direction.technique == diagnose::Technique::Delta) == (direction.pdf_sa == 0.0f));
+            CHECK((direction.technique == Technique::Delta) == (direction.pdf_sa == 0.0f));
             const float a = vertex.bsdf_fraction;
             const float mixture = a * direction.bsdf_pdf_sa + (1.0f - a) * direction.field_pdf_sa;
-            if (direction.technique != diagnose::Technique::Delta)
+            if (direction.technique != Technique::Delta)
                 CHECK(direction.pdf_sa == Approx((1.0f - vertex.delta_probability) * mixture).epsilon(1e-5));
         }
     }
@@ -98,7 +99,7 @@ TEST_CASE("Record path: every pixel's first path has the bits of the picture, by
             const RenderSettings settings = small_settings(scene, estimator);
             Session recorded = make_session(scene, settings);
             Session rendered = make_session(scene, settings);
-            const std::vector<diagnose::PathRecord> paths = record_pass(recorded);
+            const std::vector<PathRecord> paths = record_pass(recorded);
             render_passes(rendered, 1);
             CHECK(same_bits(radiances(paths), rendered.snapshot(slot_of(rendered)).pixels));
             // Coming to a path changes nothing of the picture.
@@ -115,13 +116,13 @@ TEST_CASE("Record path: later paths have the bits of their pass") {
         INFO(estimator);
         Session session = make_session(scene, small_settings(scene, estimator));
         render_passes(session, kPasses);
-        const std::vector<diagnose::PathRecord> paths = record_pass(session);
+        const std::vector<PathRecord> paths = record_pass(session);
         CHECK(same_bits(radiances(paths), render_alone(session)));
         bool has_field_sample = false;
-        for (const diagnose::PathRecord& path : paths) {
+        for (const PathRecord& path : paths) {
             check_explains(path);
-            for (const diagnose::VertexRecord& vertex : path.vertices)
-                has_field_sample |= vertex.scattered && vertex.scattered->technique == diagnose::Technique::Field;
+            for (const VertexRecord& vertex : path.vertices)
+                has_field_sample |= vertex.scattered && vertex.scattered->technique == Technique::Field;
         }
         CHECK(has_field_sample == info_of(estimator.method).uses_field);
     }
@@ -133,7 +134,7 @@ TEST_CASE("Record path: the parts of a path explain it at all kinds of surfaces 
         for (const Estimator& estimator : kEstimators) {
             INFO(name << ", " << estimator);
             Session session = make_session(scene, small_settings(scene, estimator));
-            for (const diagnose::PathRecord& path : record_pass(session)) check_explains(path);
+            for (const PathRecord& path : record_pass(session)) check_explains(path);
         }
     }
 }
@@ -146,8 +147,8 @@ TEST_CASE(
             INFO(scene.name << ", " << estimator);
             Session recorded = make_session(scene, small_settings(scene, estimator));
             Session rendered = make_session(scene, small_settings(scene, estimator));
-            const std::vector<diagnose::PathRecord> paths = record_pass(recorded);
-            for (const diagnose::PathRecord& path : paths) check_explains(path, true);
+            const std::vector<PathRecord> paths = record_pass(recorded);
+            for (const PathRecord& path : paths) check_explains(path, true);
             render_passes(rendered, 1);
             CHECK(same_bits(radiances(paths), rendered.snapshot(slot_of(rendered)).pixels));
         }
@@ -163,7 +164,7 @@ TEST_CASE("Record path: whether a pass is guided is known before it, and asking 
     for (std::uint32_t pass = 0; pass < 24; ++pass) {
         come_to_path(asked, 5);
         PassReplay passes = asked.pass_replay(slot_of(asked));
-        const diagnose::PathRecord path = diagnose::record_path(passes, diagnose::field_of(passes), 5, pass);
+        const PathRecord path = record_path(passes, field_of(passes), 5, pass);
         render_passes(asked, 1);
         render_passes(rendered, 1);
         CHECK(path.is_guided == rendered.pass_replay(slot_of(rendered)).is_guided(pass));

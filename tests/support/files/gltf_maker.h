@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include <nlohmann/json.hpp>
+#include "core/io/json.h"
 
 namespace pl::test {
 
@@ -32,8 +32,6 @@ std::string bytes_of(const std::vector<Number>& values) {
 /// The JSON, which tests may change, and one buffer.
 class GltfMaker {
 public:
-    using Json = nlohmann::json;
-
     GltfMaker() { root["asset"]["version"] = "2.0"; }
 
     Json root;

@@ -17,7 +17,6 @@ using pl::test::input_error;
 using pl::test::is_told;
 using pl::test::load_gltf;
 using pl::test::TemporaryFolder;
-using Json = nlohmann::json;
 
 namespace {
 

@@ -16,7 +16,6 @@ using pl::test::gltf_refusal;
 using pl::test::GltfMaker;
 using pl::test::load_gltf;
 using pl::test::TemporaryFolder;
-using Json = nlohmann::json;
 
 namespace {
 

@@ -17,7 +17,6 @@ using pl::test::contains;
 using pl::test::GltfMaker;
 using pl::test::is_told;
 using pl::test::load_gltf;
-using Json = nlohmann::json;
 
 namespace {
 

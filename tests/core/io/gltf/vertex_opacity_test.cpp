@@ -11,7 +11,6 @@
 
 using namespace pl;
 using namespace pl::test;
-using Json = nlohmann::json;
 
 namespace {
 
