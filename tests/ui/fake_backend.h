@@ -16,7 +16,6 @@
 #include "core/session/backend.h"
 
 namespace pl::test {
-using namespace pl::ui;
 
 /// State shared by a test and the back end on the render thread.
 struct FakeControl {
