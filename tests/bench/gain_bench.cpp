@@ -29,8 +29,8 @@ constexpr std::array kGuidedReferences{"door",    "indirect",  "labyrinth", "pil
                                        "shelter", "staircase", "thin-wall"};
 
 /// With light samples and with defaults for the keys of learning, so that runs with other keys have the same reference.
-Reference reference_of(const GainSetup& setup, const std::string& name,
-                       const std::shared_ptr<const SceneDescription>& scene) {
+bench::Reference reference_of(const GainSetup& setup, const std::string& name,
+                              const std::shared_ptr<const SceneDescription>& scene) {
     RenderSettings settings;
     if (std::find(kGuidedReferences.begin(), kGuidedReferences.end(), name) != kGuidedReferences.end())
         settings.method = MethodId::Reinforcement;
@@ -67,7 +67,7 @@ void run(const GainSetup& setup) {
     print_gain_header();
     for (const std::string& name : setup.scenes) {
         const auto scene = std::make_shared<const SceneDescription>(load_scene(name, PL_SOURCE_DIR "/assets"));
-        const Reference reference = reference_of(setup, name, scene);
+        const bench::Reference reference = reference_of(setup, name, scene);
         RunSetting setting{.scene = scene,
                            .settings = settings_of(setup, *scene),
                            .reference = reference.pixels(),
