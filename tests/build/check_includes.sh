@@ -58,7 +58,7 @@ core/selftest: core/session $below_session
 core/bench:   core/measure core/io core/session $below_session
 
 cpu:          cpu/ core/session/exact_backend.h $backend
-cuda:         cuda/ cpu/neural_update.h core/session/exact_backend.h $backend
+cuda:         cuda/ cpu/learning/neural_update.h core/session/exact_backend.h $backend
 mpi:          core/session/exact_backend.h $backend
 
 ui/viewer.h:  $tools
