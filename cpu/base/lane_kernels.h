@@ -4,10 +4,7 @@
 #include <span>
 
 #include "core/kernel/guiding/vertex_network.h"
-#include "cpu/base/lane_groups.h"
-#include "cpu/base/neural_rows.h"
-#include "cpu/base/path_groups.h"
-#include "cpu/base/table_groups.h"
+#include "cpu/base/groups.h"
 
 namespace pl {
 

@@ -1,11 +1,14 @@
-// Rays and hits of a batch of paths in groups of 16, as structures of arrays: one row per component.
+// Rays and hits of a batch of paths in groups of 16, as structures of arrays: one row per component. The scenes that vectors of rays meet,
+// as plain pointers: a few triangles, or hierarchies of eight children per node.
 #pragma once
 
 #include <concepts>
 #include <cstdint>
 #include <vector>
 
+#include "core/kernel/geometry/bvh_view.h"
 #include "core/kernel/geometry/ray.h"
+#include "core/kernel/scene/instances.h"
 
 namespace pl {
 
@@ -105,6 +108,73 @@ template <class T>
 concept BatchIntersector = requires(const T& intersector, RayBatch& batch, std::uint32_t count) {
     { intersector.find_closest(batch, count) } -> std::same_as<void>;
     { intersector.find_occluded(batch, count) } -> std::same_as<void>;
+};
+
+inline constexpr std::uint32_t kMaxDenseTriangles = 64;
+inline constexpr std::uint32_t kMaxDensePositions = 3 * kMaxDenseTriangles;
+
+struct DenseTriangle {
+    std::uint32_t a, b, c;    ///< indices into DenseView::positions
+    std::uint32_t primitive;  ///< index of the triangle in the scene
+};
+
+/// A small scene as plain pointers: files compiled for one instruction set must not instantiate inline functions of
+/// containers, which the linker would merge with those of other files.
+struct DenseView {
+    const Vec3f* positions;  ///< without duplicates
+    std::uint32_t position_count;
+    const DenseTriangle* triangles;  ///< in ascending order of primitive
+    std::uint32_t triangle_count;
+};
+
+/// Most children of a node, and most triangles of a leaf.
+inline constexpr std::uint32_t kWideChildren = 8;
+
+/// Child of a node in one word: an inner node, or `count` entries of BvhView::triangles from `first` on.
+struct WideReference {
+    static constexpr std::uint32_t kCountBits = 4;
+
+    std::uint32_t bits = 0;
+
+    constexpr std::uint32_t first() const { return bits >> kCountBits; }
+    constexpr std::uint32_t count() const { return bits & ((1u << kCountBits) - 1u); }  ///< 0: an inner node
+};
+static_assert(kMaxBvhTriangles <= 1u << (32 - WideReference::kCountBits));
+
+/// A node of a bounding volume hierarchy for vectors: the boxes of its children as rows of planes.
+struct alignas(64) WideNode {
+    float planes[3][2][kWideChildren];  ///< [axis][low or high]
+    WideReference children[kWideChildren];
+    std::uint32_t child_bits;  ///< bit i is set if there is child i
+};
+
+/// The triangles of a leaf as rows, for hierarchies that stay in the caches: memory for time. Beyond the last one it is repeated.
+struct alignas(64) LeafBlock {
+    float corners[3][3][kWideChildren];  ///< [corner][axis]
+    std::uint32_t primitives[kWideChildren];
+};
+
+/// Entries of the stack of a traversal: every level of the two-wide hierarchy leaves at most the other children behind.
+inline constexpr std::uint32_t kWideStack = (kWideChildren - 1) * kMaxBvhDepth;
+
+/// A scene and its wide hierarchy as plain pointers.
+struct WideView {
+    BvhNode root;           ///< the bounds of the scene
+    const WideNode* nodes;  ///< at least one
+    const BvhTriangle* triangles;
+    const LeafBlock* blocks;  ///< nullptr: the scene exceeds the caches, and leaves are its triangles
+};
+
+/// The instances of a scene and their wide hierarchies as plain pointers.
+struct WideInstances {
+    BvhNode root;           ///< the bounds of all
+    const WideNode* nodes;  ///< over `order`, at least one; an instance to a leaf
+    const std::uint32_t* order;
+    const Instance* list;
+    const BvhNode* mesh_bounds;  ///< [Instance::root]
+    const std::uint32_t* roots;  ///< [instance]: of its mesh, in mesh_nodes
+    const WideNode* mesh_nodes;
+    const BvhTriangle* mesh_triangles;
 };
 
 }  // namespace pl

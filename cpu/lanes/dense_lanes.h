@@ -2,8 +2,8 @@
 #pragma once
 
 #include "cpu/base/lane_kernels.h"
-#include "cpu/lanes/lane_flags.h"
 #include "cpu/lanes/lane_triangle.h"
+#include "cpu/lanes/lanes.h"
 
 namespace pl {
 namespace {

@@ -2,17 +2,13 @@
 // are set in cpu/CMakeLists.txt. All definitions have internal linkage; see lanes.h.
 #pragma once
 
-#include "cpu/lanes/camera_lanes.h"
 #include "cpu/lanes/dense_lanes.h"
-#include "cpu/lanes/far_lanes.h"
-#include "cpu/lanes/guided_lanes.h"
 #include "cpu/lanes/instance_lanes.h"
 #include "cpu/lanes/light_lanes.h"
 #include "cpu/lanes/light_tree_lanes.h"
 #include "cpu/lanes/lookup_lanes.h"
 #include "cpu/lanes/neural_lanes.h"
 #include "cpu/lanes/path_lanes.h"
-#include "cpu/lanes/shadow_lanes.h"
 #include "cpu/lanes/table_lanes.h"
 #include "cpu/lanes/update_lanes.h"
 #include "cpu/lanes/vertex_lanes.h"

@@ -3,7 +3,7 @@
 
 #include "cpu/base/lane_kernels.h"
 #include "cpu/lanes/lane_triangle.h"
-#include "cpu/lanes/wide_rays.h"
+#include "cpu/lanes/node_walk.h"
 
 namespace pl {
 namespace {

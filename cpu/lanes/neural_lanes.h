@@ -1,8 +1,8 @@
-// Loops of the network of neural fields over SIMD lanes; see cpu/lanes/lanes.h. Elements are lanes and every sum has an order of its own, so that the
+// Loops of the network of neural fields over SIMD lanes; see lanes.h. Elements are lanes and every sum has an order of its own, so that the
 // width of vectors changes no bit.
 #pragma once
 
-#include "cpu/base/neural_rows.h"
+#include "cpu/base/groups.h"
 #include "cpu/lanes/lanes.h"
 
 namespace pl {

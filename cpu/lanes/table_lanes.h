@@ -3,7 +3,7 @@
 #pragma once
 
 #include "core/kernel/methods/targets/expected_sarsa.h"
-#include "cpu/base/table_groups.h"
+#include "cpu/base/groups.h"
 #include "cpu/lanes/group_rows.h"
 
 namespace pl {

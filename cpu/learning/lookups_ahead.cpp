@@ -1,6 +1,6 @@
 #include "cpu/learning/lookups_ahead.h"
 
-#include "cpu/base/path_groups.h"
+#include "cpu/base/groups.h"
 
 namespace pl {
 namespace {

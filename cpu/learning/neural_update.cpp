@@ -2,8 +2,7 @@
 
 #include <algorithm>
 
-#include "cpu/learning/mixture_slopes.h"
-#include "cpu/learning/network_descent.h"
+#include "cpu/learning/neural_network.h"
 
 namespace pl {
 namespace {

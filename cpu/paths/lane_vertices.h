@@ -4,10 +4,9 @@
 
 #include "core/kernel/integrator/steps.h"
 #include "cpu/paths/direction_block.h"
-#include "cpu/paths/lane_block.h"
 #include "cpu/paths/lane_paths.h"
-#include "cpu/paths/lane_shadows.h"
 #include "cpu/paths/table_learning.h"
+#include "cpu/paths/vertex_block.h"
 
 namespace pl {
 

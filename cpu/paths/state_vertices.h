@@ -5,8 +5,7 @@
 #include "core/kernel/integrator/steps.h"
 #include "cpu/paths/direction_block.h"
 #include "cpu/paths/light_block.h"
-#include "cpu/paths/light_hits.h"
-#include "cpu/paths/state_shadows.h"
+#include "cpu/paths/state_paths.h"
 #include "cpu/paths/vertex_block.h"
 
 namespace pl {

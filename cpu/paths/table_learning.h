@@ -3,8 +3,8 @@
 #pragma once
 
 #include "cpu/paths/direction_block.h"
-#include "cpu/paths/lane_block.h"
 #include "cpu/paths/lane_paths.h"
+#include "cpu/paths/vertex_block.h"
 
 namespace pl {
 

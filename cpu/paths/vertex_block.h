@@ -1,12 +1,68 @@
-// The vertices of a block of paths, as structures of arrays: written once, when a path is shaded, and read in SIMD lanes while lights
-// and directions are sampled.
+// The vertices of a block of paths, as structures of arrays: written once, and read in SIMD lanes while lights and directions are sampled.
+// Paths in lanes have theirs in a LaneBlock, paths with a PathState each in a VertexBlock.
 #pragma once
 
 #include "core/kernel/integrator/steps.h"
-#include "cpu/base/path_groups.h"
-#include "cpu/paths/vertex_rows.h"
+#include "core/kernel/methods/method.h"
+#include "cpu/base/groups.h"
 
 namespace pl {
+
+/// The vertices of a block, read one by one.
+class VertexRows {
+public:
+    VertexGroup* groups() { return groups_; }
+    const VertexGroup* groups() const { return groups_; }
+    Vec3f albedo(std::uint32_t i) const { return group(i).albedo.get(i % kGroupSize); }
+    std::uint32_t primitive(std::uint32_t i) const { return group(i).primitive[i % kGroupSize]; }
+    Vec4f light_numbers(std::uint32_t i) const { return group(i).light.get(i % kGroupSize); }
+    /// Without the material and the side.
+    SurfacePoint surface(std::uint32_t i) const {
+        const VertexGroup& from = group(i);
+        const std::uint32_t lane = i % kGroupSize;
+        return {.position = from.position.get(lane),
+                .geometric_normal = from.geometric_normal.get(lane),
+                .shading_normal = from.shading_normal.get(lane),
+                .position_error = from.position_error[lane],
+                .primitive = from.primitive[lane]};
+    }
+
+private:
+    const VertexGroup& group(std::uint32_t i) const { return groups_[i / kGroupSize]; }
+
+    VertexGroup groups_[kBlockGroups];
+};
+
+/// The vertices of a block in the lanes of their paths, all at Lambert reflectors. Vertex i is that of path i of the block, if it has
+/// reached one from which it may go on.
+template <Method M>
+class LaneBlock : public VertexRows {
+public:
+    using Vertex = typename M::Vertex;
+
+    /// The block has `count` paths; none is at a vertex.
+    void clear(std::uint32_t count) {
+        count_ = count;
+        reached_ = 0;
+        continuing_ = 0;
+    }
+    /// One bit per path that is at a vertex, and per path that goes on from there.
+    void set_reached(std::uint64_t bits) { reached_ = bits; }
+    void set_continuing(std::uint64_t bits) { continuing_ = bits; }
+    void set_vertex(std::uint32_t i, const Vertex& vertex) { vertices_[i] = vertex; }
+
+    std::uint32_t group_count() const { return pl::group_count(count_); }
+    const Vertex& vertex(std::uint32_t i) const { return vertices_[i]; }
+    static constexpr bool is_layered(std::uint32_t) { return false; }
+    void for_lambert(const auto& visit) const { for_bits(reached_, visit); }
+    void for_continuing_lambert(const auto& visit) const { for_bits(continuing_, visit); }
+
+private:
+    std::uint32_t count_ = 0;
+    std::uint64_t reached_ = 0;
+    std::uint64_t continuing_ = 0;
+    Vertex vertices_[kPathBlock];
+};
 
 /// The vertices of a block at surfaces other than Lambert reflectors, whose directions are sampled path by path.
 template <FeatureSet F, Method M>
@@ -19,7 +75,7 @@ struct NoLayeredVertices {
     static constexpr std::uint64_t bits = 0;
 };
 
-/// At most kPathBlock vertices, numbered in the order of their paths.
+/// At most kPathBlock vertices, numbered in the order of their paths: each is added when its path is shaded.
 template <FeatureSet F, Method M>
 class VertexBlock : public VertexRows {
 public:

@@ -2,7 +2,7 @@
 #include <cstring>
 
 #include "core/kernel/methods/default.h"
-#include "cpu/paths/path_source.h"
+#include "cpu/paths/pass_setup.h"
 #include "tests/support/catch.hpp"
 #include "tests/support/scenes/shapes.h"
 

@@ -4,7 +4,6 @@
 #include <functional>
 
 #include "core/fields/reset_tables.h"
-#include "cpu/learning/mixture_slopes.h"
 #include "cpu/learning/neural_network.h"
 #include "tests/support/catch.hpp"
 #include "tests/support/field/neural_fixture.h"

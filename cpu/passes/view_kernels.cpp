@@ -1,4 +1,4 @@
-#include "cpu/passes/view_pass.h"
+#include "cpu/passes/pass_kernels.h"
 
 namespace pl {
 namespace {

@@ -1,4 +1,4 @@
-#include "cpu/passes/emission_pass.h"
+#include "cpu/passes/pass_kernels.h"
 
 #include <span>
 

@@ -1,12 +1,15 @@
-// CPU kernels: arguments and dispatch tables. picture_kernels.inc is compiled once per set of effects: the methods share what depends on
-// the set alone, and the sets build in parallel.
+// The kernels of passes: arguments and dispatch tables. picture_kernels.inc is compiled once per set of effects: the methods share what
+// depends on the set alone, and the sets build in parallel.
 #pragma once
 
 #include "core/base/kernel_row.h"
 #include "core/fields/field_model.h"
+#include "core/kernel/film/sample_variance.h"
+#include "core/kernel/inspect/views.h"
+#include "core/kernel/integrator/lamp_borders.h"
 #include "core/kernel/methods/method_list.h"
-#include "cpu/paths/path_work.h"
-#include "cpu/paths/run_paths.h"
+#include "cpu/paths/pass_setup.h"
+#include "cpu/paths/path_batch.h"
 #include "cpu/rays/batch_tracer.h"
 
 namespace pl {
@@ -32,6 +35,26 @@ struct ProbePass {
     ProbeStratum stratum;
 };
 
+/// Arguments of an emission kernel, which traces further camera rays for the emission of lamps whose border crosses a pixel, after a pass
+/// has added its samples; setup.paths numbers the pixels of the subset that it visits.
+struct EmissionPass {
+    PassSetup setup;
+    const BatchTracer& tracer;
+    EmissionContext context;
+    FilmView film;
+    PixelSubset subset{};
+};
+
+/// Arguments of a view kernel, which traces one camera ray per pixel to the first surface. `shown` is empty for views without a field.
+struct ViewPass {
+    PassSetup setup;
+    View view = View::Normal;
+    ShownField shown;
+    Camera camera;
+    std::uint32_t sample = 0;
+    FilmView film;
+};
+
 /// One kernel per compiled set of features.
 template <class Pass>
 using PassKernels = KernelRow<PassCounters (*)(const Pass&)>;
@@ -43,6 +66,8 @@ using PictureKernels = std::array<PictureKernel, MethodList::kCount>;
 template <int kSet>
 const PictureKernels& picture_kernels();
 extern const PassKernels<ProbePass> kProbeKernels;
+extern const PassKernels<EmissionPass> kEmissionKernels;
+extern const PassKernels<ViewPass> kViewKernels;
 
 /// Maps a method to the type that run_paths() uses: methods guided by tables get their lookups ahead.
 template <Method M>

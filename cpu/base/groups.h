@@ -1,56 +1,23 @@
-// The operands of the lane kernels: rays, paths and their vertices in groups of 16, as structures of arrays, and scenes as plain
-// pointers.
+// The operands of the lane kernels: paths, their vertices, volumes and light samples in groups of 16, as structures of arrays, and what
+// kernels read of scenes and fields, as plain pointers. Paths keep their lanes from vertex to vertex, so that each step reads and writes
+// whole vectors.
 #pragma once
 
 #include <algorithm>
+#include <bit>
+#include <cstddef>
 #include <cstdint>
 
 #include "core/kernel/base/math.h"
 #include "core/kernel/film/vertex_sequence.h"
 #include "core/kernel/guiding/table_field.h"
+#include "core/kernel/guiding/vertex_network.h"
+#include "core/kernel/integrator/steps.h"
 #include "core/kernel/scene/instances.h"
 #include "core/kernel/shading/lights.h"
 #include "cpu/base/ray_batch.h"
-#include "cpu/rays/wide_hierarchy.h"
 
 namespace pl {
-
-inline constexpr std::uint32_t kMaxDenseTriangles = 64;
-inline constexpr std::uint32_t kMaxDensePositions = 3 * kMaxDenseTriangles;
-
-struct DenseTriangle {
-    std::uint32_t a, b, c;    ///< indices into DenseView::positions
-    std::uint32_t primitive;  ///< index of the triangle in the scene
-};
-
-/// A small scene as plain pointers: files compiled for one instruction set must not instantiate inline functions of
-/// containers, which the linker would merge with those of other files.
-struct DenseView {
-    const Vec3f* positions;  ///< without duplicates
-    std::uint32_t position_count;
-    const DenseTriangle* triangles;  ///< in ascending order of primitive
-    std::uint32_t triangle_count;
-};
-
-/// A scene and its wide hierarchy as plain pointers.
-struct WideView {
-    BvhNode root;           ///< the bounds of the scene
-    const WideNode* nodes;  ///< at least one
-    const BvhTriangle* triangles;
-    const LeafBlock* blocks;  ///< nullptr: the scene exceeds the caches, and leaves are its triangles
-};
-
-/// The instances of a scene and their wide hierarchies as plain pointers.
-struct WideInstances {
-    BvhNode root;           ///< the bounds of all
-    const WideNode* nodes;  ///< over `order`, at least one; an instance to a leaf
-    const std::uint32_t* order;
-    const Instance* list;
-    const BvhNode* mesh_bounds;  ///< [Instance::root]
-    const std::uint32_t* roots;  ///< [instance]: of its mesh, in mesh_nodes
-    const WideNode* mesh_nodes;
-    const BvhTriangle* mesh_triangles;
-};
 
 /// The arguments of Rng::draw, and of vertex_numbers(), that a batch has in common.
 struct DrawKey {
@@ -253,6 +220,179 @@ struct alignas(64) LightSampleGroup {
     VectorGroup reflected;                  ///< f cos times emitted
     VectorGroup contribution;               ///< ShadowRequest::contribution
     float irradiance[kGroupSize] = {};      ///< LightEstimate::irradiance
+};
+
+/// 16 paths between the steps of the integrator, besides their rays and the counters of their random numbers: members as in PathState.
+struct alignas(64) PathGroup {
+    VectorGroup throughput, radiance;
+    float direction_pdf_sa[kGroupSize] = {}, survival[kGroupSize] = {};
+    std::uint32_t vertices[kGroupSize] = {};
+    VectorGroup weight;                      ///< f cos / pdf at the last vertex
+    float roulette_weight[kGroupSize] = {};  ///< 1 / survival probability of the roulette there
+};
+
+/// Calls visit(i) for every bit i that is set.
+inline void for_bits(std::uint64_t bits, const auto& visit) {
+    for (; bits != 0; bits &= bits - 1) visit(static_cast<std::uint32_t>(std::countr_zero(bits)));
+}
+/// The lowest `count` bits, at most 64.
+inline std::uint64_t first_bits(std::uint32_t count) {
+    return count < 64 ? (std::uint64_t{1} << count) - 1 : ~std::uint64_t{0};
+}
+
+/// One bit per path of a block: lane i of group g is bit 16 g + i.
+struct BlockBits {
+    std::uint16_t groups[kBlockGroups] = {};
+
+    std::uint64_t bits() const {
+        std::uint64_t all = 0;
+        for (std::uint32_t group = 0; group < kBlockGroups; ++group)
+            all |= std::uint64_t{groups[group]} << (group * kGroupSize);
+        return all;
+    }
+    void set(std::uint64_t bits) {
+        for (std::uint32_t group = 0; group < kBlockGroups; ++group)
+            groups[group] = static_cast<std::uint16_t>(bits >> (group * kGroupSize));
+    }
+};
+
+/// The ends of the segments of a block's paths.
+struct SegmentMarks {
+    BlockBits hit;         ///< a surface
+    BlockBits emits;       ///< which emits light towards the path, if it is one
+    BlockBits scatters;    ///< and which reflects
+    BlockBits is_deepest;  ///< the vertex is the last one that the settings allow
+};
+
+/// The surfaces of a scene of Lambert reflectors as plain pointers.
+struct SurfaceRows {
+    const Material* materials;
+    const TrianglePlane* planes;
+    const TriangleNormals*
+        triangle_normals;  ///< [primitive], indices into `normals`; null: shading normals are the geometric ones
+    const Vec3f* normals;
+};
+
+template <FeatureSet F>
+SurfaceRows surface_rows(const SceneView& scene) {
+    const bool is_smooth = F.has(Feature::SmoothNormals) && !scene.triangle_normals.empty();
+    return {.materials = scene.materials.data,
+            .planes = scene.planes.data,
+            .triangle_normals = is_smooth ? scene.triangle_normals.data : nullptr,
+            .normals = scene.normals.data};
+}
+
+/// Rows of a block of paths. Groups of arrays have one entry per group.
+struct BlockRows {
+    const HitGroup* hits;
+    const PointGroup* points;  ///< at the hits
+    const NumberGroup* scatter;
+    const NumberGroup* light;  ///< null: lights are not sampled
+    CounterGroup* counters;
+    PathGroup* paths;
+    VertexGroup* vertices;
+    std::uint32_t groups;
+};
+
+/// Contributions of light samples to 16 paths.
+struct alignas(64) LitGroup {
+    VectorGroup contribution;
+};
+
+/// A field of tables as plain pointers, of at least one volume.
+struct VolumeRows {
+    const KdNode* nodes;
+    const float* mean_radiance;  ///< this and the next three: [volume]
+    const float* direct;
+    const float* inverse_reach;
+    const float* bsdf_fraction;  ///< null: it is `fraction` everywhere
+    float fraction;
+    const float* row_cdf;
+    std::int32_t side;  ///< of a table
+};
+
+/// Values of the volumes of 16 vertices; 0 at vertices without one.
+struct alignas(64) ValueGroup {
+    float value[kGroupSize] = {}, direct[kGroupSize] = {};  ///< value_at() and direct_at() of the field
+};
+
+/// The method's part of 16 paths: members as in OpenSample, and GuidedExpectation::first.
+struct alignas(64) OpenGroup {
+    std::int32_t volume[kGroupSize], cell[kGroupSize] = {};
+    float bsdf_ratio[kGroupSize] = {};
+    float first[kGroupSize] = {};
+
+    OpenGroup() { std::fill_n(volume, kGroupSize, kNoVolume); }
+
+    void start(std::uint32_t lane) {
+        volume[lane] = kNoVolume;
+        first[lane] = 0.0f;
+    }
+    void move(std::uint32_t lane, OpenGroup& to, std::uint32_t place) const {
+        to.volume[place] = volume[lane];
+        to.cell[place] = cell[lane];
+        to.bsdf_ratio[place] = bsdf_ratio[lane];
+        to.first[place] = first[lane];
+    }
+};
+
+/// Numbers per path of a block.
+struct alignas(64) BlockNumbers {
+    float of[kPathBlock];
+};
+
+/// Rows of a block whose paths learn. `served`: the vertices that have a volume.
+struct LearningRows {
+    BlockRows block;
+    BlockBits served;
+    GuidedGroup* guided;
+    ValueGroup* values;
+    OpenGroup* open;
+};
+
+/// c = a b, or c + a b if it `adds`, each element summed in ascending order of the inner index. Element (row, i) of `a` is
+/// a[row * a_row + i * a_inner]; rows of `b` and `c` lie `b_row` and `c_row` apart. `rows` is a multiple of 4, `columns` one of
+/// kColumnBlock.
+struct MatrixProduct {
+    const float* a;
+    std::size_t a_row, a_inner;
+    const float* b;
+    std::size_t b_row;
+    float* c;
+    std::size_t c_row;
+    std::uint32_t rows, inner, columns;
+    bool adds;
+};
+
+/// The light of one volume in directions of its cells, and the mixture that learns it. Component k has the density exp(offset_k + axis_k
+/// w) over directions w, not normalized. Arrays of directions: [column]; those behind the cells have no probability.
+struct MixtureLight {
+    const float* probability;  ///< of the light; the sum is 1
+    const float *x, *y, *z;    ///< of unit directions
+    float offset[kVertexLobes];
+    float axis[3][kVertexLobes];
+    std::uint32_t columns;
+};
+
+/// Expectations over the light: of the responsibility of each component, and of that times the direction.
+struct MixtureShares {
+    float weight[kVertexLobes];
+    float direction[3][kVertexLobes];
+};
+
+/// Shares of the old in the running means of slopes and their squares.
+inline constexpr float kMeanShare = 0.9f;
+inline constexpr float kSquareShare = 0.99f;
+
+/// One step of Adam.   [Kingma and Ba 2015]
+struct DescentStep {
+    float* weights;
+    float* slope_mean;
+    float* slope_square;
+    const float* slopes;
+    std::size_t count;
+    float rate;          ///< with the correction of both means for their start at 0
+    float square_scale;  ///< of the square's
 };
 
 }  // namespace pl

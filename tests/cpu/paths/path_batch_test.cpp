@@ -8,7 +8,7 @@
 #include "core/kernel/integrator/lamp_borders.h"
 #include "core/kernel/integrator/probe.h"
 #include "core/kernel/integrator/trace_path.h"
-#include "cpu/paths/path_source.h"
+#include "cpu/paths/pass_setup.h"
 #include "tests/cpu/small_room.h"
 #include "tests/support/catch.hpp"
 #include "tests/support/field/guided_methods.h"
