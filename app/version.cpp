@@ -4,7 +4,7 @@
 #include <fmt/ranges.h>
 
 #include "app/build_info.h"
-#include "cpu/lane_names.h"
+#include "cpu/base/lane_names.h"
 
 namespace pl {
 namespace {

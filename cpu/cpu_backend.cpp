@@ -1,7 +1,9 @@
 #include "cpu/cpu_backend.h"
 
 #include <array>
+#include <fstream>
 #include <optional>
+#include <string>
 
 #include <fmt/format.h>
 
@@ -13,19 +15,27 @@
 #include "core/kernel/integrator/sampled_lights.h"
 #include "core/scene/pack_scene.h"
 #include "core/session/exact_backend.h"
-#include "cpu/batch_tracer.h"
-#include "cpu/device_name.h"
-#include "cpu/emission_pass.h"
-#include "cpu/film_store.h"
-#include "cpu/lane_kernels.h"
-#include "cpu/launchers.h"
-#include "cpu/neural_update.h"
-#include "cpu/parallel_for.h"
-#include "cpu/view_pass.h"
-#include "cpu/volume_update.h"
+#include "cpu/base/lane_kernels.h"
+#include "cpu/base/parallel_for.h"
+#include "cpu/learning/neural_update.h"
+#include "cpu/learning/volume_update.h"
+#include "cpu/passes/film_store.h"
+#include "cpu/passes/pass_kernels.h"
+#include "cpu/rays/batch_tracer.h"
 
 namespace pl {
 namespace {
+
+/// Display name of the processor: "AMD EPYC 9654"; "CPU" if the system reports no name.
+std::string cpu_name() {
+    std::ifstream info("/proc/cpuinfo");
+    for (std::string line; std::getline(info, line);) {
+        if (!line.starts_with("model name")) continue;
+        const std::size_t start = line.find_first_not_of(" \t", line.find(':') + 1);
+        if (start != std::string::npos) return line.substr(start);
+    }
+    return "CPU";
+}
 
 /// The kernel of a pass, for the representation of its field.
 PictureKernel kernel_for(const PassRequest& request, const AnyFieldView& field) {

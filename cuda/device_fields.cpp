@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/base/usable_threads.h"
-#include "cpu/neural_update.h"
+#include "cpu/learning/neural_update.h"
 
 namespace pl::cuda {
 

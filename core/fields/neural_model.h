@@ -10,7 +10,7 @@
 
 namespace pl {
 
-/// The tables keep the learned radiance. The network is taught by them in every update, see cpu/neural_update.h.
+/// The tables keep the learned radiance. The network is taught by them in every update, see cpu/learning/neural_update.h.
 template <template <class> class Array>
 struct NeuralStorage : TableStorage<Array> {
     Array<float> weights;         ///< of grids and layers, see network_layout.h

@@ -2,7 +2,7 @@
 
 #include "core/kernel/integrator/trace_path.h"
 #include "core/kernel/methods/default.h"
-#include "cpu/parallel_for.h"
+#include "cpu/base/parallel_for.h"
 #include "tests/support/peers/embree_scene.h"
 
 namespace pl::benchmarks {

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "cpu/volume_update.h"
+#include "cpu/learning/volume_update.h"
 #include "tests/bench/machine_load.h"
 #include "tests/bench/quartiles.h"
 #include "tests/support/field/random_tables.h"

@@ -2,7 +2,7 @@
 # check_includes.sh ROOT: does every file keep to the arrows of the architecture? Prints each breach, exits 1 if any.
 #   app -> ui -> core/bench, core/selftest, core/diagnose, core/inspect -> core/session -> core/scene, core/fields -> core/kernel;
 #   core/io -> core/scene, and the records of a session that it writes;
-# and the order of the folders inside app, ui, core and core/kernel. Also checks what core/kernel may not contain, since
+# and the order of the folders inside app, ui, cpu, core and core/kernel. Also checks what core/kernel may not contain, since
 # it is compiled for devices too.
 set -u
 cd "$1" || exit 2
@@ -57,8 +57,14 @@ core/inspect: core/measure core/session $below_session
 core/selftest: core/session $below_session
 core/bench:   core/measure core/io core/session $below_session
 
-cpu:          cpu/ core/session/exact_backend.h $backend
-cuda:         cuda/ cpu/neural_update.h core/session/exact_backend.h $backend
+cpu/base:     core/base core/kernel/
+cpu/lanes:    cpu/base core/kernel/
+cpu/rays:     cpu/base core/base core/kernel/
+cpu/learning: cpu/base core/fields core/base core/kernel/
+cpu/paths:    cpu/base cpu/rays cpu/learning core/session/backend.h core/base core/kernel/
+cpu/passes:   cpu/base cpu/rays cpu/learning cpu/paths $backend
+cpu:          cpu/base cpu/rays cpu/learning cpu/paths cpu/passes core/session/exact_backend.h $backend
+cuda:         cuda/ cpu/learning/neural_update.h core/session/exact_backend.h $backend
 mpi:          core/session/exact_backend.h $backend
 
 ui/viewer.h:  $tools
@@ -88,7 +94,7 @@ imgui*:            ui/draw
 backends/imgui*:   ui/draw
 CLI/*:             app
 embree[34]/*:      tests
-omp.h:             cpu
+omp.h:             cpu/base
 cuda*:             cuda
 mpi.h:             mpi
 tiny_obj_loader.h: core/io
@@ -187,7 +193,7 @@ check_includes() {
     local pattern='^([^:]+):([0-9]+):[[:space:]]*#[[:space:]]*include[[:space:]]*([<"])([^>"]+)'
     local all
     all=$(grep -rnE '^[[:space:]]*#[[:space:]]*include' --include='*.h' --include='*.cpp' --include='*.cu' \
-        --include='*.cuh' core cpu cuda mpi ui app 2>/dev/null)
+        --include='*.cuh' --include='*.inc' core cpu cuda mpi ui app 2>/dev/null)
     while IFS= read -r text; do
         [[ -n $text ]] && breach "$text"
     done <<<"$(grep -E 'include[[:space:]]*"' <<<"$all" | check_arrows)"
@@ -226,7 +232,7 @@ while IFS= read -r file; do
     [[ -n $file ]] && breach "$file: no #pragma once"
 done <<<"$(find core cpu cuda mpi ui app -name '*.h' -exec grep -L '^#pragma once' {} + 2>/dev/null)"
 
-for folder in core/*/ core/kernel/*/ ui/*/ app/*/; do
+for folder in core/*/ core/kernel/*/ cpu/*/ ui/*/ app/*/; do
     folder=${folder%/}
     [[ ! -d $folder || $folder == core/kernel || $arrows == *$'\n'"$folder:"* ]] ||
         breach "$folder: no rule in check_includes.sh says what it may include"

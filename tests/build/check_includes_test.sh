@@ -29,7 +29,11 @@ reset() {
     put core/session/learned_field.h '#pragma once\n#include "core/fields/place.h"\n'
     put core/io/field_file.cpp '#include "core/session/learned_field.h"\n'
     put core/io/load.cpp '#include <tiny_obj_loader.h>\n\n#include "core/scene/description.h"\n'
-    put cpu/backend.cpp '#include <omp.h>\n\n#include "core/session/backend.h"\n'
+    put cpu/backend.cpp '#include "core/session/backend.h"\n#include "cpu/passes/pass.h"\n'
+    put cpu/base/groups.h '#pragma once\n#include <omp.h>\n\n#include "core/base/error.h"\n'
+    put cpu/lanes/lanes.h '#pragma once\n#include "cpu/base/groups.h"\n'
+    put cpu/paths/path.h '#pragma once\n#include "cpu/base/groups.h"\n'
+    put cpu/passes/pass.h '#pragma once\n#include "cpu/paths/path.h"\n'
     put ui/viewer.h '#pragma once\n#include "core/session/session.h"\n'
     put ui/viewer.cpp '#include <SDL.h>\n\n#include "ui/viewer.h"\n#include "ui/window/gui.h"\n'
     put ui/window/gui.h '#pragma once\n#include "ui/draw/style.h"\n#include "ui/model/model.h"\n#include "ui/viewer.h"\n'
@@ -83,6 +87,7 @@ expect_breach ui/draw/a.h '#include <string>\n' 'no #pragma once'
 expect_breach core/other/a.h "$once" 'core/other: no rule'
 expect_breach ui/other/a.h "$once" 'ui/other: no rule'
 expect_breach app/other/a.h "$once" 'app/other: no rule'
+expect_breach cpu/other/a.h "$once" 'cpu/other: no rule'
 # Inside a folder: an arrow that runs back up.
 expect_breach ui/worker/a.cpp '#include "ui/model/model.h"\n' 'ui/worker may not include "ui/model/model.h"'
 expect_breach ui/draw/a.cpp '#include "ui/window/gui.h"\n' 'ui/draw may not include'
@@ -91,6 +96,13 @@ expect_breach ui/model/a.cpp '#include <imgui.h>\n' '<imgui.h> belongs in ui/dra
 expect_breach app/a.cpp '#include "app/measure/bench.cpp"\n' 'app may not include'
 expect_breach core/kernel/base/a.h "$once#include \"core/kernel/scene/view.h\"\n" 'core/kernel/base may not include'
 expect_breach core/kernel/scene/a.h "$once#include \"core/kernel/methods/guided.h\"\n" 'core/kernel/scene may not include'
+
+expect_breach cpu/base/a.cpp '#include "cpu/paths/path.h"\n' 'cpu/base may not include "cpu/paths/path.h"'
+expect_breach cpu/lanes/a.cpp '#include "cpu/paths/path.h"\n' 'cpu/lanes may not include'
+expect_breach cpu/paths/a.cpp '#include "cpu/passes/pass.h"\n' 'cpu/paths may not include'
+expect_breach cpu/paths/a.cpp '#include "cpu/lanes/lanes.h"\n' 'cpu/paths may not include'
+expect_breach cpu/passes/a.inc '#include "cpu/backend.h"\n' 'cpu/passes may not include'
+expect_breach cpu/paths/a.cpp '#include <omp.h>\n' '<omp.h> belongs in cpu/base'
 
 # Rules that allow each other.
 reset

@@ -1,7 +1,7 @@
 // docs/extending.md is true: a method and a representation that the project does not know, each in one header, render through the
 // CPU's own driver and agree with default path tracing by rule S2.
-#include "cpu/batch_tracer.h"
-#include "cpu/launchers.h"
+#include "cpu/passes/pass_kernels.h"
+#include "cpu/rays/batch_tracer.h"
 #include "tests/cpu/small_room.h"
 #include "tests/extending/cosine_lobe_field.h"
 #include "tests/extending/uniform_method.h"

@@ -1,5 +1,5 @@
 // The arithmetic of the update of a table, of one cell or of a vector of them: templates over N, see core/kernel/base/numbers.h.
-// table_update.h applies it cell by cell, cpu/update_lanes.h in SIMD lanes. All functions are inlined: files compiled for
+// table_update.h applies it cell by cell, cpu/lanes/update_lanes.h in SIMD lanes. All functions are inlined: files compiled for
 // one instruction set share none with the rest of the program.
 #pragma once
 

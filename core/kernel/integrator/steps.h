@@ -1,6 +1,6 @@
 // The integrator as steps on one path: begin, shade (once per hit), sample a light (light_sample.h), continue (roulette), scatter
 // (scatter.h), connect (once per shadow ray). Pure functions of their arguments, so that a loop over one path (trace_path.h), a batch
-// of paths (cpu/run_paths.h) and a GPU thread (cuda/kernels/trace.cuh) call the same code. Drivers of several paths call the steps
+// of paths (cpu/paths/path_batch.h) and a GPU thread (cuda/kernels/trace.cuh) call the same code. Drivers of several paths call the steps
 // apart, so that they can sample directions, and evaluate densities of directions and of lights, for many paths at once.
 #pragma once
 

@@ -1,5 +1,5 @@
 // The loop over one path: the integrator from beginning to end. A GPU thread runs it (cuda/kernels/trace.cuh), and so do tests
-// and the search for diagnostics; on the CPU, pictures run the same steps over batches of paths (cpu/run_paths.h).
+// and the search for diagnostics; on the CPU, pictures run the same steps over batches of paths (cpu/paths/path_batch.h).
 #pragma once
 
 #include "core/kernel/integrator/holes.h"

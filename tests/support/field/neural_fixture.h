@@ -3,8 +3,8 @@
 
 #include "core/fields/neural_model.h"
 #include "core/fields/place_volumes.h"
-#include "cpu/neural_update.h"
-#include "cpu/volume_update.h"
+#include "cpu/learning/neural_update.h"
+#include "cpu/learning/volume_update.h"
 #include "tests/support/scenes/shapes.h"
 
 namespace pl::test {

@@ -1,0 +1,105 @@
+// Lookups and training samples of paths guided by tables, for vectors of paths. Included by one file per instruction set; see lanes.h.
+// Bit-identical to the hooks of Guided and ExpectedSarsa.
+#pragma once
+
+#include "core/kernel/methods/targets/expected_sarsa.h"
+#include "cpu/base/groups.h"
+#include "cpu/lanes/group_rows.h"
+
+namespace pl {
+namespace {
+
+class TableLanes : GroupRows {
+public:
+    PL_INLINE TableLanes(const LearningRows& rows, std::uint32_t group, std::uint32_t first)
+        : GroupRows(first), block_(rows.block), group_(group), points_(rows.block.points[group]),
+          vertices_(rows.block.vertices[group]), guided_(rows.guided[group]), values_(rows.values[group]),
+          open_(rows.open[group]), served_(lanes_of(rows.served.groups[group])) {}
+
+    struct LookedUp {
+        std::uint32_t served, unknown;
+    };
+    /// The values of the volumes, and what directions there are sampled by, at vertices that may have a volume. Marks those that have one,
+    /// and those of them whose volume has no known node.
+    PL_INLINE LookedUp look_up(const VolumeRows& field) const {
+        const LaneInt served = served_ & (integers(points_.volume) >= 0);
+        const LaneInt volume = select(served, integers(points_.volume), LaneInt{});
+        const LaneInt number = integers(points_.node);
+        const LaneInt is_unknown = number == static_cast<std::int32_t>(FoundVolume::kUnknown);
+        const Words<KdNode> node(field.nodes, select(served & ~is_unknown, number, LaneInt{}));
+        store(select(served, volume, Lanes::constant(kNoVolume)), guided_.volume);
+        store(node.vector(offsetof(KdNode, position)), guided_.site);
+        store(node.vector(offsetof(KdNode, normal)), guided_.volume_normal);
+        store(Lanes::load(field.inverse_reach, volume), guided_.inverse_reach);
+        store(field.bsdf_fraction == nullptr ? broadcast(field.fraction) : Lanes::load(field.bsdf_fraction, volume),
+              guided_.bsdf_fraction);
+        store(select(served, Lanes::load(field.mean_radiance, volume), LaneFloat{}), values_.value);
+        store(select(served, Lanes::load(field.direct, volume), LaneFloat{}), values_.direct);
+        for (std::int32_t row = 0; row < field.side; row += kFloatsPerLine)
+            Lanes::prefetch(field.row_cdf + row, volume * field.side);
+        return {mask_bits(served) << first(), mask_bits(served & is_unknown) << first()};
+    }
+
+    /// As Guided::estimate_contribution(). `reached`: vertices from which paths may go on.
+    PL_INLINE void estimate(std::uint32_t reached, float* estimates) const {
+        const PathGroup& paths = block_.paths[group_];
+        const Real3<Lanes> albedo = vector(vertices_.albedo);
+        const LaneFloat survival = row(paths.survival) * max_component(albedo);
+        const LaneFloat reflected = rms(product(vector(paths.throughput), albedo));
+        const LaneFloat expected = reflected * row(values_.value);
+        const LaneFloat old = row(open_.first);
+        const LaneInt is_first = lanes_of(reached) & served_ & (old == 0.0f);
+        const LaneFloat first = select(is_first, expected + reflected * row(values_.direct), old);
+        store(first, open_.first);
+        store(select(served_, expected_share<Lanes>(expected, first, survival), survival), estimates);
+    }
+
+    /// Targets of the training samples that the ends of segments complete, as ExpectedSarsa::observe(). `emitted`: rms() of the emission
+    /// there, of which light samples have their share. Marks the samples, and those that are clamped.
+    struct Completed {
+        std::uint32_t samples, clamped;
+    };
+    PL_INLINE Completed complete(bool is_indirect, float most, const float* emitted, float* targets) const {
+        const Real3<Lanes> albedo = vector(vertices_.albedo);
+        const LaneFloat direct = is_indirect ? row(values_.direct) : LaneFloat{};
+        const LaneInt has_no_value = is_black(albedo);
+        const LaneFloat with_value =
+            expected_sarsa_target<Lanes>(row(emitted), rms(albedo), row(values_.value), direct);
+        const LaneFloat target = select(has_no_value, row(emitted), with_value);
+        const LaneInt is_sample = (integers(open_.volume) >= 0) & (has_no_value | served_);
+        store(target, targets);
+        return {mask_bits(is_sample) << first(), mask_bits(is_sample & (target > most)) << first()};
+    }
+
+    /// Opens a training sample for the directions of `lanes`, as FieldTrainer::open_sample().
+    PL_INLINE void open(const DirectionGroup& directions, std::uint32_t lanes) const {
+        const LaneInt cell = integers(directions.bin);
+        const LaneInt opens = lanes_of(lanes) & served_ & (cell >= 0);
+        store(select(opens, integers(points_.volume), Lanes::constant(kNoVolume)), open_.volume);
+        store(cell, open_.cell);
+        store(row(directions.bsdf_pdf_sa) / row(directions.pdf_sa), open_.bsdf_ratio);
+    }
+
+private:
+    static constexpr std::int32_t kFloatsPerLine = 16;
+
+    const BlockRows& block_;
+    std::uint32_t group_;
+    const PointGroup& points_;
+    const VertexGroup& vertices_;
+    GuidedGroup& guided_;
+    ValueGroup& values_;
+    OpenGroup& open_;
+    LaneInt served_;
+};
+
+/// Calls step(lanes, group, first) for every vector of every group of a block.
+template <class Step>
+PL_INLINE void for_table_lanes(const LearningRows& rows, const Step& step) {
+    for (std::uint32_t group = 0; group < rows.block.groups; ++group)
+        for (std::uint32_t first = 0; first < kGroupSize; first += kLaneWidth)
+            step(TableLanes(rows, group, first), group);
+}
+
+}  // namespace
+}  // namespace pl

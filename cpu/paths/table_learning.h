@@ -1,0 +1,131 @@
+// The hooks of methods guided by tables, in SIMD lanes: lookups, contribution estimates and training samples of a block's paths. What
+// remains path by path is to queue the samples.
+#pragma once
+
+#include "cpu/paths/direction_block.h"
+#include "cpu/paths/lane_paths.h"
+#include "cpu/paths/vertex_block.h"
+
+namespace pl {
+
+/// Paths of a block by what the ends of their segments are.
+struct SegmentEnds {
+    std::uint64_t hit = 0;         ///< a surface
+    std::uint64_t scattering = 0;  ///< which reflects
+    std::uint64_t reached = 0;     ///< from which the path may go on
+};
+
+/// Hooks of a method that has none in lanes.
+template <FeatureSet F, Method M>
+struct TableLearning {
+    explicit TableLearning(LanePaths<F, M>&) {}
+};
+
+template <FeatureSet F, LaneLearning M>
+class TableLearning<F, M> {
+public:
+    explicit TableLearning(LanePaths<F, M>& paths) : paths_(paths) {}
+
+    /// Told of the block of path `first`, and of the volumes that its directions are sampled by.
+    void begin(std::uint32_t first, const BlockRows& block, GuidedGroup* guided) {
+        first_ = first;
+        rows_ = {.block = block,
+                 .served = {},
+                 .guided = guided,
+                 .values = values_,
+                 .open = paths_.rows.open_groups() + first / kGroupSize};
+        emitted_ = {};
+    }
+    /// Told of the emission at the end of the segment of path k.
+    void add_emission(std::uint32_t k, const Observation& observation) {
+        emitted_.of[k] = rms(observation.emitted) * (is_indirect() ? observation.direction_share : 1.0f);
+    }
+    /// Looks up the volumes at the ends of the segments, and completes the training samples there.
+    void observe(const SegmentEnds& ends, LaneBlock<M>& vertices) {
+        look_up(ends.scattering, vertices);
+        if constexpr (!std::is_empty_v<typename M::Sample>) complete(ends.hit);
+        if constexpr (!std::is_empty_v<typename M::Light>)
+            for_bits(ends.reached, [&](std::uint32_t k) { vertices.set_vertex(k, vertex(k)); });
+    }
+    /// Contribution estimates, one per path, at the vertices in `reached`.
+    const float* estimate(std::uint64_t reached) {
+        BlockBits at;
+        at.set(reached);
+        paths_.kernels.estimate_contributions(rows_, at, estimates_);
+        return estimates_.of;
+    }
+    /// Opens training samples of the paths in `scattered`.
+    void scattered(const DirectionGroup* directions, std::uint64_t scattered) {
+        if constexpr (!std::is_empty_v<typename M::Sample>) {
+            if (!paths_.method.trains) return;
+            BlockBits lanes;
+            lanes.set(scattered);
+            paths_.kernels.open_samples(rows_, directions, lanes);
+        }
+    }
+
+    /// The volume of the vertex of path k.
+    TableLocation vertex(std::uint32_t k) const {
+        const PointGroup& points = rows_.block.points[k / kGroupSize];
+        const std::uint32_t lane = k % kGroupSize;
+        const bool is_served = ((rows_.served.bits() >> k) & 1u) != 0;
+        return is_served ? TableLocation{points.volume[lane], points.node[lane]} : TableLocation{};
+    }
+
+private:
+    bool is_indirect() const {
+        if constexpr (!std::is_empty_v<typename M::Sample>)
+            return paths_.method.learning.light == LearnedLight::Indirect;
+        return false;
+    }
+    void look_up(std::uint64_t scattering, const LaneBlock<M>& vertices) {
+        const TableField& field = paths_.method.field;
+        const MixtureSettings& mixture = paths_.method.mixture;
+        BlockBits unknown;
+        if (!field.normals.empty()) {
+            rows_.served.set(scattering);
+            rows_.served = paths_.kernels.look_up_volumes(
+                {.nodes = field.tree.nodes.data,
+                 .mean_radiance = field.mean_radiance.data,
+                 .direct = field.direct.data,
+                 .inverse_reach = field.inverse_reach.data,
+                 .bsdf_fraction = mixture.learned != 0 ? field.bsdf_fraction.data : nullptr,
+                 .fraction = mixture.bsdf_fraction,
+                 .row_cdf = field.row_cdf.data,
+                 .side = field.cells.side},
+                rows_, unknown);
+        }
+        for_bits(unknown.bits(), [&](std::uint32_t k) {
+            rows_.guided[k / kGroupSize].set_volume(k % kGroupSize,
+                                                    served_point(field, vertex(k), vertices.surface(k)),
+                                                    paths_.method.bsdf_fraction(vertex(k)));
+        });
+        const std::uint64_t missed = scattering & ~rows_.served.bits();
+        paths_.counters.path.method.lookups += static_cast<std::uint64_t>(std::popcount(scattering));
+        paths_.counters.path.method.lookup_misses += static_cast<std::uint64_t>(std::popcount(missed));
+    }
+    void complete(std::uint64_t hit) {
+        BlockNumbers targets;
+        BlockBits samples, clamped;
+        const float most = kMaxRecordedUnits * paths_.method.field.radiance_unit;
+        paths_.kernels.complete_samples(rows_, is_indirect(), most, emitted_, targets, samples, clamped);
+        const std::uint64_t completed = samples.bits() & hit;
+        MethodCounters& counters = paths_.counters.path.method;
+        counters.records += static_cast<std::uint64_t>(std::popcount(completed));
+        counters.clamped_records += static_cast<std::uint64_t>(std::popcount(clamped.bits() & hit));
+        for_bits(completed, [&](std::uint32_t k) {
+            OpenSample<TableField> sample = paths_.rows.open_sample(first_ + k);
+            sample.distance = rows_.block.hits[k / kGroupSize].t[k % kGroupSize];
+            paths_.guided.record({sample, targets.of[k]});
+        });
+    }
+
+    LanePaths<F, M>& paths_;
+    std::uint32_t first_ = 0;
+    LearningRows rows_{};
+    ValueGroup values_[kBlockGroups];
+    BlockNumbers emitted_{};  ///< rms() of emission at the ends of segments, without the share of light samples
+    BlockNumbers estimates_{};
+};
+
+}  // namespace pl

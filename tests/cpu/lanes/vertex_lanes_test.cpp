@@ -1,0 +1,76 @@
+// Paths that are scattered in SIMD lanes go where those of the scalar code go, bit for bit, by every instruction set.
+#include <cstring>
+
+#include "core/kernel/methods/default.h"
+#include "cpu/base/lane_kernels.h"
+#include "cpu/paths/vertex_block.h"
+#include "tests/cpu/lanes/leaning_point.h"
+#include "tests/support/catch.hpp"
+#include "tests/support/scenes/shapes.h"
+
+using namespace pl;
+using namespace pl::test;
+
+namespace {
+
+using Point = LeaningPoint;
+using Block = VertexBlock<FeatureSet{}, DefaultMethod>;
+
+using pl::test::same_bits;
+bool same_bits(const DirectionSample& a, const DirectionSample& b) { return std::memcmp(&a, &b, sizeof a) == 0; }
+
+struct Comparison {
+    int different = 0;
+    int black = 0;
+};
+
+Comparison compare(const LaneKernels& kernels) {
+    const DefaultMethod method;
+    Block block;
+    DirectionGroup directions[kBlockGroups];
+    ScatteredGroup scattered[kBlockGroups];
+    Uniforms random(11);
+    Comparison result;
+    for (int round = 0; round < 40; ++round) {
+        block.clear();
+        std::vector<Point> points;
+        std::vector<Vec4f> numbers;
+        for (std::uint32_t i = 0; i < kPathBlock; ++i) {
+            points.push_back(random_point(random));
+            numbers.push_back({random.cube(0.0f, 1.0f), 0.0f});
+            block.add(i, points.back(), {}, {.scatter = numbers.back()});
+        }
+        kernels.sample_lambert(block.groups(), directions, block.group_count());
+        kernels.scatter(block.groups(), directions, scattered, block.group_count());
+        for (std::uint32_t i = 0; i < kPathBlock; ++i) {
+            const std::uint32_t lane = i % kGroupSize;
+            const ScatteredGroup& to = scattered[i / kGroupSize];
+            PathState<FeatureSet{}, DefaultMethod> state;
+            PathCounters counters;
+            DefaultMethod::Sample none;
+            const DirectionSample alone =
+                method.sample_direction({}, points[i].surface, {.rng = {}, .u = numbers[i]});
+            const PathStatus status =
+                scatter_lambert(method, points[i], alone, state, StepOutput<DefaultMethod>{none, counters});
+            bool same = same_bits(directions[i / kGroupSize].get(lane), alone) &&
+                        (to.is_lit[lane] != 0) == (status == PathStatus::Continues);
+            if (status == PathStatus::Continues)
+                same = same && same_bits(to.weight.get(lane), state.throughput) &&
+                       same_bits(to.origin.get(lane), state.ray.origin);
+            result.different += same ? 0 : 1;
+            result.black += status == PathStatus::Continues ? 0 : 1;
+        }
+    }
+    return result;
+}
+
+}  // namespace
+
+TEST_CASE("Every instruction set scatters paths as the scalar code does, bit for bit") {
+    for (const LaneKernels& kernels : usable_lane_kernels()) {
+        INFO(kernels.isa);
+        const Comparison result = compare(kernels);
+        CHECK(result.different == 0);
+        CHECK(result.black > 300);
+    }
+}
