@@ -28,7 +28,7 @@ std::vector<TakenOption> options_of(Command command) {
     std::vector<TakenOption> options;
     for (const OptionSpec& spec : option_table())
         if (spec.commands.has(command) && !spec.group.empty())
-            options.push_back({split_at_commas(std::string(spec.flags)), spec.value, std::string(spec.help), &spec});
+            options.push_back({split_at_commas(std::string(spec.flags)), spec.value, spec.help_text(), &spec});
     for (const ParserFlag& flag : parser_flags(command))
         options.push_back({split_at_commas(flag.flags), "", flag.help, nullptr});
     return options;
@@ -122,8 +122,8 @@ std::string man_page() {
         text += fmt::format(".SS {}\n", roff(group));
         for (const OptionSpec& spec : option_table())
             if (spec.group == group)
-                text += man_option(split_at_commas(std::string(spec.flags)), spec.value,
-                                   std::string(spec.help) + takers(spec));
+                text +=
+                    man_option(split_at_commas(std::string(spec.flags)), spec.value, spec.help_text() + takers(spec));
     }
     text += ".SS Questions\n";
     for (const ParserFlag& flag : parser_flags(Command::View))

@@ -173,7 +173,7 @@ std::string options_help(Command command, HelpExtent extent) {
         std::string lines;
         for (const OptionSpec& spec : option_table())
             if (spec.group == group && is_shown(spec, command, extent))
-                lines += in_columns(option_head(spec), spec.help);
+                lines += in_columns(option_head(spec), spec.help_text());
         if (!lines.empty()) text += fmt::format("\n{}:\n{}", group, lines);
     }
     return text;

@@ -153,7 +153,7 @@ Json json_of(const SceneReport& report) {
     Json materials = Json::array();
     for (const MaterialDescription& material : scene.materials)
         materials.push_back({{"name", material.name},
-                             {"surface", kSurfaceNames[static_cast<std::size_t>(material.kind)]},
+                             {"surface", name_of(material.kind)},
                              {"albedo", vector_json(material.albedo)},
                              {"specular", vector_json(material.specular)},
                              {"transmission", vector_json(material.transmission)},

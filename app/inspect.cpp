@@ -28,12 +28,12 @@ namespace {
 void require_outputs(const Options& options) {
     const InspectionKind kind = inspection_kind(options.output);
     if (options.history) require_viewer_code("--history");
-    if (options.drawn != "disc") {
+    if (options.drawn != HemisphereDisplay::Disc) {
         require_viewer_code("--drawn");
         if (kind != InspectionKind::AsPng || options.history)
             throw Error(ErrorKind::Usage, fmt::format("{}: --drawn {} is a picture of cells: expected a .png and no "
                                                       "--history",
-                                                      options.output, options.drawn));
+                                                      options.output, name_of(options.drawn)));
     }
     require_writable(options.output);
     if (!options.stats_file.empty()) require_writable(options.stats_file);
@@ -165,7 +165,7 @@ int run_inspect(const CommandLine& line, Console& console) {
                                   .truth = std::move(truth)};
     if (options.history)
         save_history(options.output, history, volume, source);
-    else if (options.drawn != "disc")
+    else if (options.drawn != HemisphereDisplay::Disc)
         write_png8(options.output, draw_in_scene(session, index, options));
     else
         save_inspection(options.output, volume, source);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "app/choices.h"
 #include "app/parse_values.h"
@@ -18,11 +19,15 @@ namespace {
 
 constexpr std::array<std::string_view, 3> kBackends{"auto", "cpu", "cuda"};
 
+}  // namespace
+
 std::vector<std::string> method_names() {
     return names_in(all_methods(), [](const MethodInfo& info) { return info.name; });
 }
 
-}  // namespace
+std::vector<std::string> view_names() {
+    return names_in(all_views(), [](const ViewInfo& info) { return info.name; });
+}
 
 void fail_not_yet(std::string_view what) {
     throw Error(ErrorKind::Usage, fmt::format("this version does not have it: {}", what));
@@ -58,7 +63,7 @@ void parse_backends(Options& options, const std::string& text) {
 
 void parse_view(Options& options, const std::string& text) {
     const auto id = view_by_name(text);
-    if (!id) fail_choice(names_in(all_views(), [](const ViewInfo& info) { return info.name; }), text);
+    if (!id) fail_choice(view_names(), text);
     options.render.view = *id;
 }
 
@@ -167,6 +172,20 @@ void parse_crop(Options& options, const std::string& text) {
     options.crop = {number(0, 0, kSide - 1), number(1, 0, kSide - 1), number(2, 1, kSide), number(3, 1, kSide)};
 }
 
+void parse_representations(Options& options, const std::string& text) {
+    options.fields.clear();
+    for (const std::string& name : split_at_commas(text)) {
+        const auto field = parse_choice<Representation>(name);
+        if (std::ranges::find(options.fields, field) == options.fields.end()) options.fields.push_back(field);
+    }
+}
+
+std::string print_representations(const Options& options) {
+    if (options.fields.empty()) return std::string(name_of(options.render.field.representation));
+    return fmt::format("{}",
+                       fmt::join(names_in(options.fields, [](Representation field) { return name_of(field); }), ","));
+}
+
 void parse_forced_effects(Options& options, const std::string& text) {
     if (text == "all") {
         options.render.forced_effects = kEveryFeature;
@@ -194,16 +213,6 @@ void parse_parameter(Options& options, const std::string& text) {
     if (equals == 0 || equals == std::string::npos || text.find('\n') != std::string::npos)
         fail_value("NAME=VALUE, such as spp=64", text);
     options.load.parameters.emplace_back(text.substr(0, equals), text.substr(equals + 1));
-}
-
-void parse_map_kd(Options& options, const std::string& text) {
-    if (text != "multiply" && text != "replace") fail_choice({"multiply", "replace"}, text);
-    options.load.map_kd = text == "replace" ? MapKd::Replaces : MapKd::Multiplies;
-}
-
-void parse_up_axis(Options& options, const std::string& text) {
-    options.load.up_axis = up_axis_named(text);
-    if (!options.load.up_axis) fail_choice(names_in(kUpAxisNames, [](std::string_view name) { return name; }), text);
 }
 
 void parse_at(Options& options, const std::string& text) {
@@ -263,13 +272,6 @@ std::string print_parameters(const Options& options) {
 std::string print_default_light(const Options& options) {
     if (!options.load.default_light) return "";
     return *options.load.default_light ? "on" : "off";
-}
-
-std::string print_map_kd(const Options& options) { return options.load.map_kd == MapKd::Replaces ? "replace" : ""; }
-
-std::string print_up_axis(const Options& options) {
-    if (!options.load.up_axis) return "";
-    return std::string(kUpAxisNames[static_cast<std::size_t>(*options.load.up_axis)]);
 }
 
 }  // namespace pl

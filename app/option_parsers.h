@@ -3,6 +3,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "app/option_values.h"
 
@@ -11,13 +12,15 @@ namespace pl {
 /// For words of the contract that a later version will understand.
 [[noreturn]] void fail_not_yet(std::string_view what);
 
+std::vector<std::string> method_names();
+std::vector<std::string> view_names();
+
 void parse_method(Options& options, const std::string& text);
 /// "NAME,NAME..." or "all".
 void parse_methods(Options& options, const std::string& text);
 void parse_backends(Options& options, const std::string& text);
 void parse_view(Options& options, const std::string& text);
 void parse_backend(Options& options, const std::string& text);
-void parse_tone_curve(Options& options, const std::string& text);
 void parse_bins(Options& options, const std::string& text);
 void parse_probes(Options& options, const std::string& text);
 void parse_bsdf_fraction(Options& options, const std::string& text);
@@ -36,25 +39,16 @@ void parse_ui_scale(Options& options, const std::string& text);
 void parse_remember(Options& options, const std::string& text);
 void parse_picture_size(Options& options, const std::string& text);
 void parse_crop(Options& options, const std::string& text);
-void parse_representation(Options& options, const std::string& text);
 /// "NAME,NAME...".
 void parse_representations(Options& options, const std::string& text);
 std::string print_representations(const Options& options);
-void parse_learning_rate(Options& options, const std::string& text);
-void parse_learn_target(Options& options, const std::string& text);
-void parse_learn_from(Options& options, const std::string& text);
-void parse_roulette(Options& options, const std::string& text);
-void parse_guiding(Options& options, const std::string& text);
 /// "NAME,NAME..." or "all".
 void parse_forced_effects(Options& options, const std::string& text);
 /// "NAME=VALUE", or several with commas between. The scene decides whether it takes them.
 void parse_knobs(Options& options, const std::string& text);
 /// "NAME=VALUE".
 void parse_parameter(Options& options, const std::string& text);
-void parse_up_axis(Options& options, const std::string& text);
-void parse_map_kd(Options& options, const std::string& text);
 void parse_at(Options& options, const std::string& text);
-void parse_frame_kind(Options& options, const std::string& text);
 void parse_pixel(Options& options, const std::string& text);
 void parse_samples(Options& options, const std::string& text);
 
@@ -65,15 +59,5 @@ std::string print_knobs(const Options& options);
 std::string print_parameters(const Options& options);
 /// Empty if it was not given.
 std::string print_default_light(const Options& options);
-/// Empty if it was not given.
-std::string print_up_axis(const Options& options);
-std::string print_map_kd(const Options& options);
-std::string_view tone_curve_name(ToneCurve curve);
-std::string_view name_of(Representation representation);
-std::string_view name_of(LearningRate rate);
-std::string_view name_of(LearningTarget target);
-std::string_view name_of(LearnedLight light);
-std::string_view name_of(RouletteRule rule);
-std::string_view name_of(GuidingRule rule);
 
 }  // namespace pl

@@ -20,6 +20,10 @@ std::vector<OptionSpec> join_groups() {
 
 }  // namespace
 
+std::string OptionSpec::help_text() const {
+    return values == nullptr ? std::string(help) : fmt::format("{}: {}", help, values());
+}
+
 std::span<const OptionSpec> option_table() {
     static const std::vector<OptionSpec> table = join_groups();
     return table;

@@ -37,6 +37,10 @@ struct OptionSpec {
     /// The value of the options as text that parses to it, empty if there is none; null for options that are no part
     /// of a picture. Of an option that is given once for each of several values, these line by line.
     std::string (*print)(const Options&) = nullptr;
+    /// What the help says of the values, behind `help` and a colon; null if `help` says all.
+    std::string (*values)() = nullptr;
+
+    std::string help_text() const;
 };
 
 /// In the order in which options are applied, whatever their order on the command line.

@@ -1,6 +1,7 @@
 // Options as values: of the command line and of scene files.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -13,7 +14,7 @@
 #include "core/io/image.h"
 #include "core/io/load_settings.h"
 #include "core/scene/description.h"
-#include "core/session/settings.h"
+#include "core/session/choices.h"
 
 namespace pl {
 
@@ -44,6 +45,17 @@ struct SampleNumbers {
     std::uint32_t first = 0;
     std::uint32_t last = 0;
 };
+
+/// What a PNG of a learned hemisphere shows.
+enum class HemisphereDisplay { Disc, Lobe, Dome, Flowers };
+
+template <>
+inline constexpr auto kChoices<HemisphereDisplay> = std::to_array<ChoiceInfo<HemisphereDisplay>>({
+    {HemisphereDisplay::Disc, "disc", "Disc", "the hemisphere as an equal-area disc"},
+    {HemisphereDisplay::Lobe, "lobe", "Lobe", "in the scene, as long as its density"},
+    {HemisphereDisplay::Dome, "dome", "Glass dome", "in the scene, to see through"},
+    {HemisphereDisplay::Flowers, "flowers", "Flowers", "in the scene, the lobes of every n-th volume"},
+});
 
 /// A part of a picture, rows counted from the top.
 struct PixelWindow {
@@ -97,13 +109,13 @@ struct Options {
 
     std::optional<ScenePoint> at;
     std::optional<glm::ivec2> pixel;
-    std::optional<SampleNumbers> samples;  ///< trace: numbers of the pixel's samples
-    bool why = false;                      ///< trace: the noise of the pixel
-    std::uint32_t why_samples = 4096;      ///< paths by each method for it
-    bool truth = false;                    ///< inspect: also the light that reaches the volume
-    std::uint32_t truth_samples = 256;     ///< paths per cell for it
-    bool history = false;                  ///< inspect: figures over the passes in place of cells
-    std::string drawn = "disc";            ///< inspect: display in a PNG: disc, lobe, dome, flowers
+    std::optional<SampleNumbers> samples;               ///< trace: numbers of the pixel's samples
+    bool why = false;                                   ///< trace: the noise of the pixel
+    std::uint32_t why_samples = 4096;                   ///< paths by each method for it
+    bool truth = false;                                 ///< inspect: also the light that reaches the volume
+    std::uint32_t truth_samples = 256;                  ///< paths per cell for it
+    bool history = false;                               ///< inspect: figures over the passes in place of cells
+    HemisphereDisplay drawn = HemisphereDisplay::Disc;  ///< inspect: of cells, in a PNG
 
     std::string stats_file;
     std::string diagnostics_file;  ///< render: picture of the places of diagnostics

@@ -1,6 +1,5 @@
 #include "app/picture_target.h"
 
-#include <array>
 #include <cstdio>
 
 #include <fmt/format.h>
@@ -10,19 +9,14 @@
 #include "core/io/picture_file.h"
 
 namespace pl {
-namespace {
-
-constexpr std::array kWritten{ImageKind::Png, ImageKind::Exr, ImageKind::Pfm};
-
-}  // namespace
 
 bool is_standard_output(const std::string& output) { return output == "-" || output.ends_with(":-"); }
 
 ImageKind picture_kind(const std::string& output) {
     if (!is_standard_output(output)) return image_kind(output);
     if (output == "-") return ImageKind::Png;
-    for (const ImageKind kind : kWritten)
-        if (output == fmt::format("{}:-", name_of(kind))) return kind;
+    for (const ChoiceInfo<ImageKind>& info : kChoices<ImageKind>)
+        if (output == fmt::format("{}:-", info.name)) return info.value;
     throw Error(ErrorKind::Usage, fmt::format("-o: expected -, png:-, exr:- or pfm:-, got '{}'", output));
 }
 

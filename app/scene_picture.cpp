@@ -36,14 +36,14 @@ void require_viewer_code(const std::string&) {}
 
 ByteImage draw_in_scene(Session& session, std::int32_t volume, const Options& options) {
     const MethodId method = options.render.method;
-    if (options.drawn == "flowers") {
+    if (options.drawn == HemisphereDisplay::Flowers) {
         ui::FieldHistoryRecorder recorder = recorder_for_run();
         recorder.observe(session, method);
         return painter().flowers(frame_behind(session, options), *recorder.history()->frames.back());
     }
     const auto read = std::make_shared<const VolumeInspection>(session.inspect_volume(method, volume));
     return painter().volumes(frame_behind(session, options), {read},
-                             options.drawn == "dome" ? ui::LobeShape::Dome : ui::LobeShape::Lobe);
+                             options.drawn == HemisphereDisplay::Dome ? ui::LobeShape::Dome : ui::LobeShape::Lobe);
 }
 
 ByteImage draw_path_lines(Session& session, const std::vector<diagnose::PathRecord>& paths, const Options& options) {

@@ -1,20 +1,9 @@
 #include "app/options/groups.h"
 
-#include <algorithm>
-#include <array>
-
-#include "app/choices.h"
 #include "core/inspect/incident_light.h"
 
 namespace pl {
 namespace {
-
-void parse_drawn(Options& options, Text text) {
-    constexpr std::array<std::string_view, 4> kNames{"disc", "lobe", "dome", "flowers"};
-    if (std::ranges::find(kNames, text) == kNames.end())
-        fail_choice(names_in(kNames, [](std::string_view name) { return name; }), text);
-    options.drawn = text;
-}
 
 // clang-format off
 constexpr auto kComparisonOptions = std::to_array<OptionSpec>({
@@ -51,22 +40,23 @@ constexpr auto kComparisonOptions = std::to_array<OptionSpec>({
      .help = "Key frames of the field: divergences from the light that reaches the volume, variance factor and "
              "difference to the last frame, over the passes",
      .commands = CommandSet(Command::Inspect), .parse = parse_flag<&Options::history>},
+    choosing<&Options::drawn>(
     {.name = "drawn", .flags = "--drawn", .value = "NAME", .group = kPlace,
-     .help = "Display in a PNG: disc, or in the scene lobe, dome, or flowers of every n-th volume (default disc)",
-     .commands = CommandSet(Command::Inspect), .parse = parse_drawn},
+     .help = "Display in a PNG", .commands = CommandSet(Command::Inspect)}),
 
     {.name = "method", .flags = "--method", .value = "NAME", .group = kPicture,
-     .help = "Sampling of directions: default (unless given), precomputed or reinforcement; --list-methods explains them",
+     .help = "Sampling of directions (default unless given), explained by --list-methods",
      .commands = kOneMethod, .in_scene_files = true, .parse = parse_method,
-     .print = [](const Options& o) { return std::string(info_of(o.render.method).name); }},
+     .print = [](const Options& o) { return std::string(info_of(o.render.method).name); },
+     .values = [] { return one_of(method_names()); }},
     {.name = "method", .flags = "--method", .value = "NAME,..", .group = kCompared,
      .help = "Methods to compare, separated by commas (default: all); the first one is the baseline of the "
              "others",
      .commands = CommandSet(Command::Bench), .parse = parse_methods},
     {.name = "field", .flags = "--field", .value = "NAME,..", .group = kCompared,
-     .help = "Representations of what reinforcement learns to compare: table, sd-tree, lobes, neural (default: that of "
-             "each scene's settings)",
-     .commands = CommandSet(Command::Bench), .parse = parse_representations, .print = print_representations},
+     .help = "Representations of what reinforcement learns to compare (default: that of each scene's settings)",
+     .commands = CommandSet(Command::Bench), .parse = parse_representations, .print = print_representations,
+     .values = [] { return describe_choices<Representation>(); }},
     {.name = "backend", .flags = "--backend", .value = "NAME,..", .group = kCompared,
      .help = "Back ends to compare: cpu, cuda (default: all that are available)",
      .commands = CommandSet(Command::Bench), .parse = parse_backends},

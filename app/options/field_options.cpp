@@ -11,12 +11,9 @@ void refuse_save_field(Options&, const std::string&) {
 
 // clang-format off
 constexpr auto kFieldOptions = std::to_array<OptionSpec>({
+    choosing<&Options::render, &RenderSettings::field, &FieldSettings::representation>(
     {.name = "field", .flags = "--field", .value = "NAME", .group = kField,
-     .help = "How reinforcement represents what it learns: table (default), cells of directions in each radiance volume; sd-tree; "
-             "lobes, von Mises-Fisher mixtures; neural, mixtures of lobes by a network. sd-tree and lobes on the "
-             "CPU alone",
-     .commands = kSampling, .in_scene_files = true, .parse = parse_representation,
-     .print = [](const Options& o) { return std::string(name_of(o.render.field.representation)); }},
+     .help = "How reinforcement represents what it learns", .commands = kSampling, .in_scene_files = true}),
     {.name = "volumes", .flags = "--volumes", .value = "N", .group = kField,
      .help = "Number of radiance volumes (default: what the budget holds, at most 1000)",
      .is_expert = true, .commands = kPaths, .in_scene_files = true,
@@ -48,21 +45,17 @@ constexpr auto kFieldOptions = std::to_array<OptionSpec>({
              "each volume learns its own, precomputed takes 0.5",
      .is_expert = true, .commands = kPaths, .in_scene_files = true, .parse = parse_bsdf_fraction,
      .print = [](const Options& o) { return print_bsdf_fraction(o.render.mixture); }},
+    choosing<&Options::render, &RenderSettings::field, &FieldSettings::rate>(
     {.name = "learning-rate", .flags = "--learning-rate", .value = "NAME", .group = kField,
-     .help = "Step of an update: forgetful (default; early training samples lose their weight), or mean (1/(1+visits))",
-     .is_expert = true, .commands = kSampling, .in_scene_files = true, .parse = parse_learning_rate,
-     .print = [](const Options& o) { return std::string(name_of(o.render.field.rate)); }},
+     .help = "Step of an update", .is_expert = true, .commands = kSampling, .in_scene_files = true}),
+    choosing<&Options::render, &RenderSettings::field, &FieldSettings::learning, &LearningSettings::target>(
     {.name = "learn-target", .flags = "--learn-target", .value = "NAME", .group = kField,
-     .help = "Target of reinforcement's training samples: expected-sarsa (default, mean over the next "
-             "direction), sarsa (the next direction as sampled), or monte-carlo (the radiance that the path "
-             "brings)",
-     .is_expert = true, .commands = kSampling, .in_scene_files = true, .parse = parse_learn_target,
-     .print = [](const Options& o) { return std::string(name_of(o.render.field.learning.target)); }},
+     .help = "Target of reinforcement's training samples; tables alone learn from others than the first",
+     .is_expert = true, .commands = kSampling, .in_scene_files = true}),
+    choosing<&Options::render, &RenderSettings::field, &FieldSettings::learning, &LearningSettings::light>(
     {.name = "learn-from", .flags = "--learn-from", .value = "NAME", .group = kField,
-     .help = "With next-event estimation, light in reinforcement's training samples: indirect (default), only "
-             "light that light samples do not bring, or all",
-     .is_expert = true, .commands = kSampling, .in_scene_files = true, .parse = parse_learn_from,
-     .print = [](const Options& o) { return std::string(name_of(o.render.field.learning.light)); }},
+     .help = "With next-event estimation, light in reinforcement's training samples",
+     .is_expert = true, .commands = kSampling, .in_scene_files = true}),
     {.name = "learn-passes", .flags = "--learn-passes", .value = "N", .group = kField,
      .help = "Passes that train the field of reinforcement; later ones sample from it as it is then (default: all train it)",
      .is_expert = true, .commands = kSampling, .in_scene_files = true,

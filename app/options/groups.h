@@ -6,7 +6,10 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
+#include <utility>
 
+#include "app/choices.h"
 #include "app/option_parsers.h"
 #include "app/option_table.h"
 #include "app/parse_values.h"
@@ -83,6 +86,25 @@ void parse_flag(Options& options, const std::string&) {
 template <auto kMember>
 void parse_side(Options& options, const std::string& text) {
     options.*kMember = static_cast<int>(parse_whole(text, 1, kMaxImageSide));
+}
+
+/// The member at the end of a path of members of Options.
+template <auto... kMembers>
+constexpr auto& member_of(auto& options) {
+    return (options.*....*kMembers);
+}
+
+/// An option for such a member whose values describe themselves.
+template <auto... kMembers>
+constexpr OptionSpec choosing(OptionSpec spec) {
+    using Value = std::remove_reference_t<decltype(member_of<kMembers...>(std::declval<Options&>()))>;
+    spec.parse = [](Options& o, Text text) { member_of<kMembers...>(o) = parse_choice<Value>(text); };
+    spec.print = [](const Options& o) { return std::string(name_of(member_of<kMembers...>(o))); };
+    spec.values = [] {
+        const Options standard;
+        return describe_choices<Value>(member_of<kMembers...>(standard));
+    };
+    return spec;
 }
 
 }  // namespace pl

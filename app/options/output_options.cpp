@@ -29,10 +29,9 @@ constexpr auto kOutputOptions = std::to_array<OptionSpec>({
      .help = "Folder of the pictures, made if it is missing: frame_0001.png and so on. Files of these names are replaced",
      .commands = CommandSet(Command::Replay), .parse = parse_text<&Options::output>,
      .print = [](const Options& o) { return o.output; }},
+    choosing<&Options::frame_kind>(
     {.name = "format", .flags = "--format", .value = "NAME", .group = kOutput,
-     .help = "Kind of the pictures: png (default), tone mapped; exr or pfm, linear",
-     .commands = CommandSet(Command::Replay), .parse = parse_frame_kind,
-     .print = [](const Options& o) { return std::string(name_of(o.frame_kind)); }},
+     .help = "Kind of the pictures", .commands = CommandSet(Command::Replay)}),
     {.name = "stats", .flags = "--stats", .value = "FILE", .group = kOutput,
      .help = "Write counts and timings as JSON",
      .commands = kWithStats, .parse = parse_text<&Options::stats_file>},

@@ -13,11 +13,10 @@ constexpr std::uint64_t kNoLimit = std::numeric_limits<std::uint64_t>::max();
 // clang-format off
 constexpr auto kPictureOptions = std::to_array<OptionSpec>({
     {.name = "view", .flags = "--view", .value = "NAME", .group = kPicture,
-     .help = "Quantity in the picture: beauty, direct, radiance-map, voronoi, normal, albedo, depth; heat maps "
-             "of the learned field: visits, irradiance, entropy, bsdf-share, change, unvisited (see "
-             "--list-views)",
+     .help = "Quantity in the picture, explained by --list-views",
      .commands = kPictures, .in_scene_files = true, .parse = parse_view,
-     .print = [](const Options& o) { return std::string(info_of(o.render.view).name); }},
+     .print = [](const Options& o) { return std::string(info_of(o.render.view).name); },
+     .values = [] { return one_of(view_names()); }},
     {.name = "backend", .flags = "--backend", .value = "NAME", .group = kPicture,
      .help = "Back end: auto, cpu, cuda",
      .commands = kOneMethod, .in_scene_files = true, .parse = parse_backend,
@@ -61,18 +60,13 @@ constexpr auto kPictureOptions = std::to_array<OptionSpec>({
      .commands = kWithScene, .in_scene_files = true,
      .parse = [](Options& o, Text text) { o.render.next_event = parse_switch(text); },
      .print = [](const Options& o) { return std::string(o.render.next_event ? "on" : "off"); }},
-    {.name = "roulette", .flags = "--roulette", .value = "NAME", .group = kPicture,
-     .help = "Russian roulette: spare (default): by the albedo, but the learned radiance may spare a path; albedo: "
-             "by the albedo alone; off: paths end by "
-             "--max-depth alone",
-     .is_expert = true, .commands = kSampling, .in_scene_files = true, .parse = parse_roulette,
-     .print = [](const Options& o) { return std::string(name_of(o.render.roulette)); }},
+    choosing<&Options::render, &RenderSettings::roulette>(
+    {.name = "roulette", .flags = "--roulette", .value = "NAME", .group = kPicture, .help = "Rule of Russian roulette",
+     .is_expert = true, .commands = kSampling, .in_scene_files = true}),
+    choosing<&Options::render, &RenderSettings::guiding>(
     {.name = "guiding", .flags = "--guiding", .value = "NAME", .group = kPicture,
-     .help = "Guided methods with light samples: paying (default): where guiding does not pay, most passes are those "
-             "of default; always: every pass is guided",
-     .is_expert = true, .commands = CommandSet(Command::View, Command::Render, Command::Replay, Command::Trace), .in_scene_files = true,
-     .parse = parse_guiding,
-     .print = [](const Options& o) { return std::string(name_of(o.render.guiding)); }},
+     .help = "Guided methods with light samples",
+     .is_expert = true, .commands = CommandSet(Command::View, Command::Render, Command::Replay, Command::Trace), .in_scene_files = true}),
     {.name = "force-effects", .flags = "--force-effects", .value = "NAME,..", .group = kPicture,
      .help = "Use a kernel compiled for these effects, too, although the scene lacks them: it is slower, and "
              "the picture stays the same to the bit. Names as 'info' prints them, or all",
@@ -89,10 +83,9 @@ constexpr auto kPictureOptions = std::to_array<OptionSpec>({
              "of the scene",
      .is_expert = true, .commands = kOpening, .parse = [](Options& o, Text text) { o.load.materials = text; },
      .print = [](const Options& o) { return o.load.materials.string(); }},
+    choosing<&Options::load, &LoadSettings::map_kd>(
     {.name = "map-kd", .flags = "--map-kd", .value = "NAME", .group = kPicture,
-     .help = "Image of a material of an MTL file: multiply (default), map_Kd times Kd by the text of the format; or replace, map_Kd "
-             "alone, as Blender reads it",
-     .is_expert = true, .commands = kOpening, .parse = parse_map_kd, .print = print_map_kd},
+     .help = "Image of a material of an MTL file", .is_expert = true, .commands = kOpening}),
     {.name = "default-light", .flags = "--default-light", .value = "on|off", .group = kPicture,
      .help = "Light a scene that has no light with a sky and a soft sun (default on); no scene with a light changes",
      .is_expert = true, .commands = kOpening, .in_scene_files = true,
@@ -102,10 +95,9 @@ constexpr auto kPictureOptions = std::to_array<OptionSpec>({
      .commands = kPictures, .in_scene_files = true,
      .parse = [](Options& o, Text text) { o.display.exposure_ev = static_cast<float>(parse_real(text, -64, 64)); },
      .print = [](const Options& o) { return print_float(o.display.exposure_ev); }},
+    choosing<&Options::display, &DisplaySettings::curve>(
     {.name = "tonemap", .flags = "--tonemap", .value = "NAME", .group = kPicture,
-     .help = "Display only: clamp (default), reinhard, aces",
-     .is_expert = true, .commands = kPictures, .in_scene_files = true, .parse = parse_tone_curve,
-     .print = [](const Options& o) { return std::string(tone_curve_name(o.display.curve)); }},
+     .help = "Tone curve, display only", .is_expert = true, .commands = kPictures, .in_scene_files = true}),
 });
 // clang-format on
 

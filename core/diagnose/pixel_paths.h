@@ -23,10 +23,7 @@ struct PassPair {
 PassPair pass_pair(const Session& session, FilmSlot slot);
 
 /// Which passes of a pixel are of interest.
-enum class PassChoice {
-    Brightest,  ///< those that brought most light by the method of the picture
-    Newest,     ///< a fair sample of all
-};
+enum class PassChoice { Brightest, Newest };
 
 /// Passes searched for the brightest at most, newest first.
 inline constexpr std::uint32_t kMostSearchedPasses = 1u << 14;

@@ -22,12 +22,6 @@ enum class Representation : std::uint32_t {
 /// In the order of FieldArrays.
 inline constexpr std::array kAllRepresentations{Representation::Table, Representation::SdTree, Representation::Lobes,
                                                 Representation::Neural};
-/// Number of a representation in this order; beyond it for a number that is none of them.
-constexpr std::size_t index_of(Representation representation) {
-    std::size_t index = 0;
-    while (index < kAllRepresentations.size() && kAllRepresentations[index] != representation) ++index;
-    return index;
-}
 
 /// Whether tables of radiance volumes keep what is learned: then they are refined, and sampled or the teacher of what is; and both
 /// back ends have kernels for it.

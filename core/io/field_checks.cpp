@@ -51,17 +51,19 @@ private:
         if (!holds) fail(what, expected, got);
     }
 
+    template <Described Enum>
+    void require_choice(const char* what, Enum value) const {
+        require(is_choice(value), what, "one of " + choice_numbers<Enum>(), static_cast<std::uint32_t>(value));
+    }
+
     void settings() const {
         const FieldSettings& s = field_.settings;
         require(s.volumes >= 0, "volumes asked for", "0 or more", s.volumes);
         require(is_amount(s.budget_megabytes), "budget", "a number of megabytes", s.budget_megabytes);
         require(s.bins >= 4 && s.bins <= 1024 && is_square(s.bins), "bins", "a square number from 4 to 1024", s.bins);
-        require(s.rate == LearningRate::SampleMean || s.rate == LearningRate::Forgetful, "learning rate", "1 or 4",
-                static_cast<std::uint32_t>(s.rate));
-        require(s.learning.target <= LearningTarget::MonteCarlo, "learning target", "0 to 2",
-                static_cast<std::uint32_t>(s.learning.target));
-        require(s.learning.light <= LearnedLight::Indirect, "learned light", "0 or 1",
-                static_cast<std::uint32_t>(s.learning.light));
+        require_choice("learning rate", s.rate);
+        require_choice("learning target", s.learning.target);
+        require_choice("learned light", s.learning.light);
         require(s.uniform_floor >= 0.0f && s.uniform_floor <= 1.0f, "uniform share", "0 to 1", s.uniform_floor);
         require(s.precompute_samples > 0 && is_square(s.precompute_samples), "precomputed samples",
                 "a square number above 0", s.precompute_samples);

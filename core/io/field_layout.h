@@ -1,6 +1,9 @@
 // The layout of a learned field in files: in those of fields, and in checkpoints.
 #pragma once
 
+#include <fmt/ranges.h>
+
+#include "core/fields/field_choices.h"
 #include "core/fields/field_model.h"
 #include "core/fields/refine_placement.h"
 #include "core/io/binary_stream.h"
@@ -34,6 +37,15 @@ void transfer_volumes(Stream& stream, Volumes& volumes) {
     zip_placement(volumes, volumes, [&](const auto&, auto& array) { transfer_array(stream, array); });
 }
 
+/// Choices as files store them: "0 (table), 1 (sd-tree)".
+template <Described Enum>
+std::string choice_numbers() {
+    std::vector<std::string> numbers;
+    for (const ChoiceInfo<Enum>& info : kChoices<Enum>)
+        numbers.push_back(fmt::format("{} ({})", static_cast<std::uint32_t>(info.value), info.name));
+    return fmt::format("{}", fmt::join(numbers, ", "));
+}
+
 /// Throws Error(Input) unless a number that was read from `what`, a file at `path`, is that of a representation.
 inline void require_representation(Representation representation, const std::filesystem::path& path,
                                    std::string_view what) {
@@ -41,13 +53,13 @@ inline void require_representation(Representation representation, const std::fil
     if (representation == kPriorOfTables)
         throw Error(
             ErrorKind::Input,
-            fmt::format("{}: {} of a representation that is no longer there: expected table, sd-tree, lobes or "
-                        "neural, got tables with a network as their prior",
-                        path.string(), what));
-    if (index_of(representation) == kAllRepresentations.size())
-        fail_damaged(
-            path, what,
-            fmt::format("representation: expected 0, 1, 2 or 4, got {}", static_cast<std::uint32_t>(representation)));
+            fmt::format("{}: {} of a representation that is no longer there: expected one of {}, got tables with a "
+                        "network as their prior",
+                        path.string(), what, fmt::join(choice_names<Representation>(), ", ")));
+    if (!is_choice(representation))
+        fail_damaged(path, what,
+                     fmt::format("representation: expected one of {}, got {}", choice_numbers<Representation>(),
+                                 static_cast<std::uint32_t>(representation)));
 }
 
 /// The arrays, behind their representation.

@@ -1,6 +1,7 @@
 // Picture files: EXR, PFM and HDR hold linear values, PNG holds 8-bit display values.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -10,6 +11,7 @@
 
 #include <glm/glm.hpp>
 
+#include "core/base/choice.h"
 #include "core/io/image_checks.h"
 
 namespace pl {
@@ -33,18 +35,26 @@ using ImageMetadata = std::vector<std::pair<std::string, std::string>>;
 
 enum class ImageKind { Exr, Pfm, Png, Hdr, Jpeg, Tga, Bmp };
 
+/// The kinds that the program writes.
+template <>
+inline constexpr auto kChoices<ImageKind> = std::to_array<ChoiceInfo<ImageKind>>({
+    {ImageKind::Png, "png", "PNG", "tone mapped"},
+    {ImageKind::Exr, "exr", "EXR", "linear"},
+    {ImageKind::Pfm, "pfm", "PFM", "linear"},
+});
+
 /// "exr", "pfm", "png" and so on: also the extension.
 constexpr std::string_view name_of(ImageKind kind) {
     switch (kind) {
-    case ImageKind::Exr: return "exr";
-    case ImageKind::Pfm: return "pfm";
-    case ImageKind::Png: return "png";
+    case ImageKind::Exr:
+    case ImageKind::Pfm:
+    case ImageKind::Png: break;
     case ImageKind::Hdr: return "hdr";
     case ImageKind::Jpeg: return "jpg";
     case ImageKind::Tga: return "tga";
     case ImageKind::Bmp: return "bmp";
     }
-    return "";
+    return name_of<ImageKind>(kind);
 }
 
 /// Whether files of this kind hold linear values.

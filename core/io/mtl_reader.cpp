@@ -200,9 +200,9 @@ private:
             }
             entry().two_sided = word == "1";
         } else if (key == "pl_surface") {
-            const std::optional<SurfaceKind> kind = surface_kind(word);
+            const std::optional<SurfaceKind> kind = choice_named<SurfaceKind>(word);
             if (!kind) {
-                return odd(fmt::format("{}, got {}", fmt::join(kSurfaceNames, ", "), in_quotes(word)));
+                return odd(fmt::format("{}, got {}", fmt::join(choice_names<SurfaceKind>(), ", "), in_quotes(word)));
             }
             entry().surface = kind;
         } else {

@@ -36,7 +36,7 @@ const std::vector<std::string> kSettings = {
 
 /// The vertical axis: of the choice, else of the settings, else of the camera, else guessed. Expects scene.settings.
 void read_up(const JsonDocument& file, const LoadSettings& asked, SceneDescription& scene) {
-    const std::optional<UpAxis> preset = up_axis_named(scene.setting("up-axis"));
+    const std::optional<UpAxis> preset = choice_named<UpAxis>(scene.setting("up-axis"));
     const UpAxis axis = asked.up_axis.value_or(preset.value_or(UpAxis::Auto));
     const std::string at = file.has("/camera") ? "/camera" : "/cameras/0";
     const std::optional<glm::vec3> up = file.vector(at + "/up");

@@ -73,10 +73,10 @@ std::uint32_t find_material(const JsonDocument& file, const SceneDescription& sc
 
 void read_surface(const JsonDocument& file, const std::string& at, MaterialDescription& material) {
     if (const std::optional<std::string> name = file.text(at + "/surface")) {
-        const std::optional<SurfaceKind> kind = surface_kind(*name);
+        const std::optional<SurfaceKind> kind = choice_named<SurfaceKind>(*name);
         if (!kind) {
-            file.fail(at + "/surface",
-                      fmt::format("expected one of {}, got '{}'", fmt::join(kSurfaceNames, ", "), *name));
+            file.fail(at + "/surface", fmt::format("expected one of {}, got '{}'",
+                                                   fmt::join(choice_names<SurfaceKind>(), ", "), *name));
         }
         material.kind = *kind;
     }
@@ -298,7 +298,7 @@ Json material_json(const MaterialDescription& material) {
     Json json{{"albedo", vector_json(material.albedo)},
               {"emission", vector_json(material.emission)},
               {"two_sided_emission", material.two_sided_emission},
-              {"surface", kSurfaceNames[static_cast<std::size_t>(material.kind)]},
+              {"surface", name_of(material.kind)},
               {"roughness", material.roughness},
               {"ior", material.ior},
               {"specular", vector_json(material.specular)},

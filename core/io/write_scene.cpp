@@ -180,8 +180,7 @@ private:
         }
         if (nearest_axis(scene_.camera.up) != scene_.up)
             for (const UpAxis axis : {UpAxis::X, UpAxis::Y, UpAxis::Z})
-                if (up_direction(axis, scene_) == scene_.up)
-                    settings["up-axis"] = kUpAxisNames[static_cast<std::size_t>(axis)];
+                if (up_direction(axis, scene_) == scene_.up) settings["up-axis"] = name_of(axis);
         if (light_of(scene_) == SceneLight::None) settings["default-light"] = "off";
         if (!settings.empty()) document["settings"] = std::move(settings);
     }

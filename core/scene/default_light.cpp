@@ -86,7 +86,7 @@ glm::vec3 rounded(const glm::dvec3& radiance) { return {glm::round(radiance * 0x
 
 std::string signed_axis(const glm::vec3& axis) {
     const int i = axis.x != 0.0f ? 0 : axis.y != 0.0f ? 1 : 2;
-    return fmt::format("{}{}", axis[i] < 0.0f ? '-' : '+', kUpAxisNames[static_cast<std::size_t>(i) + 1]);
+    return fmt::format("{}{}", axis[i] < 0.0f ? '-' : '+', "xyz"[i]);
 }
 
 }  // namespace

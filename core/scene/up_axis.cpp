@@ -40,12 +40,6 @@ bool stands_on_zero(const Bounds& bounds, int axis) {
 
 }  // namespace
 
-std::optional<UpAxis> up_axis_named(std::string_view name) {
-    const auto found = std::find(kUpAxisNames.begin(), kUpAxisNames.end(), name);
-    if (found == kUpAxisNames.end()) return std::nullopt;
-    return static_cast<UpAxis>(found - kUpAxisNames.begin());
-}
-
 glm::vec3 guess_up(const SceneDescription& scene) {
     constexpr glm::vec3 kY{0.0f, 1.0f, 0.0f};
     constexpr glm::vec3 kZ{0.0f, 0.0f, 1.0f};

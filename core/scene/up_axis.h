@@ -2,19 +2,21 @@
 #pragma once
 
 #include <array>
-#include <optional>
-#include <string_view>
 
+#include "core/base/choice.h"
 #include "core/scene/description.h"
 
 namespace pl {
 
 enum class UpAxis { Auto, X, Y, Z };
 
-/// [UpAxis]
-inline constexpr std::array<std::string_view, 4> kUpAxisNames{"auto", "x", "y", "z"};
-
-std::optional<UpAxis> up_axis_named(std::string_view name);
+template <>
+inline constexpr auto kChoices<UpAxis> = std::to_array<ChoiceInfo<UpAxis>>({
+    {UpAxis::Auto, "auto", "Automatic", "y or z, guessed from the geometry"},
+    {UpAxis::X, "x", "x"},
+    {UpAxis::Y, "y", "y"},
+    {UpAxis::Z, "z", "z"},
+});
 
 /// +y or +z, of which OBJ files say nothing. The first rule that applies:
 /// 1. The model stands on the plane y = 0 or z = 0: its bounds begin there, within a twentieth of their extent, and

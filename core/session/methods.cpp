@@ -29,7 +29,8 @@ constexpr std::array<ViewInfo, kViewCount> kViews{
     ViewInfo{View::Normal, "normal", "Normals", "Shading normals, as 0.5 (n + 1).", false, false},
     ViewInfo{View::Albedo, "albedo", "Albedo", "Diffuse reflectance.", false, false},
     ViewInfo{View::Depth, "depth", "Depth", "Distance from the camera along the ray, in scene units.", false, false},
-    ViewInfo{View::Visits, "visits", "Visits", "Records so far in all cells of each point's volume.", true, true},
+    ViewInfo{View::Visits, "visits", "Visits", "Training samples so far in all cells of each point's volume.", true,
+             true},
     ViewInfo{View::Irradiance, "irradiance", "Irradiance", "Learned irradiance of each point's volume.", true, true},
     ViewInfo{View::Entropy, "entropy", "Entropy",
              "How undecided each volume's table is, in bits; log2 of the bins where it is uniform.", true, true},
@@ -37,8 +38,8 @@ constexpr std::array<ViewInfo, kViewCount> kViews{
              true},
     ViewInfo{View::Change, "change", "Change",
              "How much the cells of each volume last changed, relative to its mean radiance.", true, true},
-    ViewInfo{View::Unvisited, "unvisited", "Unvisited", "Share of each volume's cells that have no record.", true,
-             true},
+    ViewInfo{View::Unvisited, "unvisited", "Unvisited", "Share of each volume's cells without a training sample.",
+             true, true},
 };
 
 }  // namespace

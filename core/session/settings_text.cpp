@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "core/session/choices.h"
+
 namespace pl {
 namespace {
 
@@ -9,8 +11,8 @@ std::string text_of(const glm::vec3& v) { return fmt::format("{},{},{}", v.x, v.
 
 template <class T>
 std::string text_of(T value) {
-    if constexpr (std::is_enum_v<T>)
-        return fmt::format("{}", static_cast<std::uint32_t>(value));
+    if constexpr (Described<T>)
+        return std::string(name_of(value));
     else
         return fmt::format("{}", value);
 }

@@ -70,9 +70,8 @@ void check_nothing_gained(const std::vector<double>& leans, std::uint32_t passes
                     const Snapshot picture = picture_of(scene, estimator, 64, passes);
                     Moments pixels;
                     for (const Vec3f& pixel : picture.pixels) pixels.add(static_cast<double>(pixel.y));
-                    INFO(kSurfaceNames[static_cast<std::size_t>(material.kind)]
-                         << ", roughness " << material.roughness << ", " << degrees << " degrees, view " << view
-                         << ", " << estimator);
+                    INFO(name_of(material.kind) << ", roughness " << material.roughness << ", " << degrees
+                                                << " degrees, view " << view << ", " << estimator);
                     CHECK(pixels.mean() <= 1.001 + kZAlpha * pixels.standard_error());
                     CHECK(pixels.standard_error() <= resolving_error(delta));
                     CHECK(count_broken(picture) == 0);
@@ -104,7 +103,7 @@ TEST_CASE("No light comes through walls whose normals lean", "[hard]") {
             scene.environment = Vec3f{1000.0f};
             for (const Estimator estimator : kEstimators) {
                 const Snapshot picture = picture_of(leaning(scene, degrees), estimator, 32, 1);
-                INFO(kSurfaceNames[static_cast<std::size_t>(kind)] << ", " << degrees << " degrees, " << estimator);
+                INFO(name_of(kind) << ", " << degrees << " degrees, " << estimator);
                 CHECK(picture.counters.path.escaped == 0);
                 CHECK(worst_pixel(picture, 0.0) == 0.0);
             }

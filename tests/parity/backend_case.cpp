@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/base/timer.h"
+#include "core/session/choices.h"
 #include "cuda/cuda_backend.h"
 #include "tests/parity/record.h"
 #include "tests/support/session/same_bits.h"
@@ -22,15 +23,6 @@ Rendered render(std::unique_ptr<RenderBackend> backend, const BackendCase& compa
     return {test::state_of(session), watch.seconds()};
 }
 
-std::string_view name_of(LearningTarget target) {
-    switch (target) {
-    case LearningTarget::ExpectedSarsa: return "expected-sarsa";
-    case LearningTarget::Sarsa: return "sarsa";
-    case LearningTarget::MonteCarlo: return "monte-carlo";
-    }
-    return "unknown";
-}
-
 }  // namespace
 
 std::string BackendCase::label() const {
@@ -38,16 +30,14 @@ std::string BackendCase::label() const {
     std::string words = fmt::format(
         "scene={} method={} view={} nee={} size={}x{} passes={} seed={} depth={} roulette={} guiding={} effects={}",
         scene->name, info_of(settings.method).name, info_of(settings.view).name, settings.next_event ? "on" : "off",
-        settings.width, settings.height, passes, settings.seed, settings.max_depth,
-        static_cast<std::uint32_t>(settings.roulette), static_cast<std::uint32_t>(settings.guiding),
-        settings.forced_effects.bits);
+        settings.width, settings.height, passes, settings.seed, settings.max_depth, name_of(settings.roulette),
+        name_of(settings.guiding), settings.forced_effects.bits);
     if (info_of(settings.method).uses_field)
         words += fmt::format(
             " field={} target={} light={} rate={} volumes={} bins={} precompute={} refine={} mixture={}:{}",
-            static_cast<std::uint32_t>(field.representation), name_of(field.learning.target),
-            static_cast<std::uint32_t>(field.learning.light), static_cast<std::uint32_t>(field.rate), field.volumes,
-            field.bins, field.precompute_samples, field.refine_share, settings.mixture.learned,
-            settings.mixture.bsdf_fraction);
+            name_of(field.representation), name_of(field.learning.target), name_of(field.learning.light),
+            name_of(field.rate), field.volumes, field.bins, field.precompute_samples, field.refine_share,
+            settings.mixture.learned, settings.mixture.bsdf_fraction);
     return words;
 }
 

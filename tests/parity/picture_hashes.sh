@@ -51,7 +51,7 @@ export program work
             echo "hash_field '$scene field $target' $scene --method reinforcement --nee off --learn-target $target"
             echo "hash_field '$scene field $target nee' $scene --method reinforcement --nee on --learn-target $target"
         done
-        for roulette in albedo field; do
+        for roulette in albedo off; do
             echo "hash_picture '$scene roulette $roulette' $scene --method reinforcement --nee off --roulette $roulette --spp 4"
         done
     done

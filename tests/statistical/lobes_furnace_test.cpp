@@ -60,7 +60,7 @@ int wrong_values(const std::vector<Vec3f>& picture) {
 TEST_CASE("Clear glass, thin panes and perfect mirrors cannot be seen under an even sky") {
     for (const SurfaceKind kind : {SurfaceKind::Dielectric, SurfaceKind::Pane, SurfaceKind::Conductor})
         for (const Estimator estimator : kEstimators) {
-            INFO(kSurfaceNames[static_cast<std::size_t>(kind)] << ", " << estimator);
+            INFO(name_of(kind) << ", " << estimator);
             CHECK(wrong_values(picture_of({lossless(kind, 0.0f)}, estimator, 4)) == 0);
         }
 }

@@ -4,18 +4,29 @@
 #include <array>
 #include <cstdint>
 
-namespace pl::ui {
+#include "core/base/choice.h"
 
+namespace pl {
+namespace ui {
 enum class CompareMode { Off, Split, Flip, SideBySide, Difference, ErrorMap };
-inline constexpr int kCompareModeCount = 6;
-
-constexpr const char* name_of(CompareMode mode) {
-    constexpr std::array<const char*, kCompareModeCount> kNames{"off",          "split",      "flip",
-                                                                "side by side", "difference", "error map"};
-    return kNames[static_cast<std::size_t>(mode)];
 }
 
+template <>
+inline constexpr auto kChoices<ui::CompareMode> = std::to_array<ChoiceInfo<ui::CompareMode>>({
+    {ui::CompareMode::Off, "off", "off"},
+    {ui::CompareMode::Split, "split", "split"},
+    {ui::CompareMode::Flip, "flip", "flip"},
+    {ui::CompareMode::SideBySide, "side by side", "side by side"},
+    {ui::CompareMode::Difference, "difference", "difference"},
+    {ui::CompareMode::ErrorMap, "error map", "error map"},
+});
+
+}  // namespace pl
+
+namespace pl::ui {
+
 constexpr CompareMode stepped(CompareMode mode, int steps) {
+    constexpr int kCompareModeCount = static_cast<int>(kChoices<CompareMode>.size());
     const int index = (static_cast<int>(mode) + steps % kCompareModeCount + kCompareModeCount) % kCompareModeCount;
     return static_cast<CompareMode>(index);
 }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <vector>
 
 #include <fmt/format.h>
 
@@ -15,6 +14,12 @@ namespace {
 constexpr float kLabelEm = 6.4f;
 
 std::string hidden_label(const char* label) { return std::string("##") + label; }
+
+bool begin_list(const char* label, const char* tip, const char* shown) {
+    const bool open = ImGui::BeginCombo(hidden_label(label).c_str(), shown);
+    if (!open) end_row(label, tip);
+    return open;
+}
 
 /// Keeps typed numbers until the field is left: half a number must not restart the placement of volumes.
 template <std::size_t N>
@@ -227,11 +232,13 @@ bool point_row(const char* label, const char* tip, float* xyz) {
     return true;
 }
 
-bool choice_row(const char* label, const char* tip, int* index, const char* labels) {
-    std::vector<std::string> words;
-    for (const char* word = labels; *word != '\0'; word += words.back().size() + 1) words.emplace_back(word);
+bool choice_row(const char* label, const char* tip, int* index, const std::vector<std::string>& words, float width) {
     const auto current = static_cast<std::size_t>(*index);
-    if (!begin_choice_row(label, tip, current < words.size() ? words[current].c_str() : "")) return false;
+    if (width > 0.0f)
+        ImGui::SetNextItemWidth(width);
+    else
+        begin_row(label, tip);
+    if (!begin_list(label, tip, current < words.size() ? words[current].c_str() : "")) return false;
     bool changed = false;
     for (std::size_t i = 0; i < words.size(); ++i) {
         const bool is_chosen = ImGui::Selectable(words[i].c_str(), i == current);
@@ -254,9 +261,7 @@ bool color_row(const char* label, const char* tip, float* rgb) {
 
 bool begin_choice_row(const char* label, const char* tip, const char* shown) {
     begin_row(label, tip);
-    const bool open = ImGui::BeginCombo(hidden_label(label).c_str(), shown);
-    if (!open) end_row(label, tip);
-    return open;
+    return begin_list(label, tip, shown);
 }
 
 bool wide_button(const char* label, const char* tip) {

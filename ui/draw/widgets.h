@@ -3,7 +3,9 @@
 
 #include <span>
 #include <string>
+#include <vector>
 
+#include "core/base/choice.h"
 #include "ui/draw/draw_list.h"
 #include "ui/draw/style.h"
 
@@ -55,8 +57,29 @@ bool double_row(const char* label, const char* tip, double* value, double step, 
 bool size_row(const char* label, const char* tip, int* width, int* height);
 bool point_row(const char* label, const char* tip, float* xyz);
 
-/// One of several words; the labels are separated by '\0' and end with two.
-bool choice_row(const char* label, const char* tip, int* index, const char* labels);
+/// One of several words. With a width it is the list alone, and scripts point at it by the label.
+bool choice_row(const char* label, const char* tip, int* index, const std::vector<std::string>& words,
+                float width = 0.0f);
+
+/// `about`, then what the choices of an enumeration say of themselves.
+template <Described Enum>
+std::string choice_tip(std::string about) {
+    for (const ChoiceInfo<Enum>& info : kChoices<Enum>)
+        if (!info.sentence.empty())
+            about.append(" ").append(info.label).append(": ").append(info.sentence).append(".");
+    return about;
+}
+
+/// One of them.
+template <Described Enum>
+bool choice_row(const char* label, const char* about, Enum* value, float width = 0.0f) {
+    std::vector<std::string> labels;
+    for (const ChoiceInfo<Enum>& info : kChoices<Enum>) labels.emplace_back(info.label);
+    auto index = static_cast<int>(choice_index(*value));
+    if (!choice_row(label, choice_tip<Enum>(about).c_str(), &index, labels, width)) return false;
+    *value = kChoices<Enum>[static_cast<std::size_t>(index)].value;
+    return true;
+}
 
 /// Linear red, green and blue in [0, 1].
 bool color_row(const char* label, const char* tip, float* rgb);

@@ -1,9 +1,11 @@
 #include "ui/model/render_controls.h"
-#include "ui/draw/words.h"
 
 #include <algorithm>
 
 #include <fmt/format.h>
+
+#include "core/fields/field_choices.h"
+#include "ui/draw/words.h"
 
 namespace pl::ui {
 
@@ -159,14 +161,13 @@ void RenderControls::cancel_precomputation() {
 bool RenderControls::is_served(const FieldSettings& field, const std::string& backend) {
     if (!has_target(field.representation, field.learning.target)) {
         messages_.say(MessageLevel::Warning,
-                      "Sarsa and Monte Carlo train tables alone: this field learns by Expected Sarsa");
+                      fmt::format("{} trains tables alone: this field learns by {}", label_of(field.learning.target),
+                                  label_of(LearningTarget::ExpectedSarsa)));
         return false;
     }
     if (backend == "cpu" || has_tables(field.representation)) return true;
-    messages_.say(MessageLevel::Warning,
-                  fmt::format("{} has no kernels for {}: {} the CPU", back_end_label(backend),
-                              field.representation == Representation::Lobes ? "lobes" : "the SD-tree",
-                              field.representation == Representation::Lobes ? "they need" : "it needs"));
+    messages_.say(MessageLevel::Warning, fmt::format("{} has no kernels for the field {}: it needs the CPU",
+                                                     back_end_label(backend), label_of(field.representation)));
     return false;
 }
 

@@ -121,7 +121,7 @@ void draw_precompute_progress(ViewerModel& model, const Layout& layout, double s
 /// The mode of the comparison and its hints.
 void add_compare_badges(BadgeRow& row, const ViewerModel& model, const ComparePlan& plan) {
     if (model.comparison().state().mode == CompareMode::Off) return;
-    row.add(fmt::format("compare: {}", name_of(model.comparison().state().mode)), colors::kAccent);
+    row.add(fmt::format("compare: {}", label_of(model.comparison().state().mode)), colors::kAccent);
     if (plan.has_heat) row.add_heat_legend(error_map_legend());
     if (!plan.hint.empty()) row.add(plan.hint, colors::kWarning);
 }

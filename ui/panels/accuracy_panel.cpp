@@ -120,10 +120,9 @@ void draw_side_choice(ViewerModel& model, bool second) {
 
 void draw_comparison(ViewerModel& model) {
     if (!section("Compare pictures", true)) return;
-    int mode = static_cast<int>(model.comparison().state().mode);
-    if (choice_row("Mode", "Keys C and Shift+C; G flips to the other picture.", &mode,
-                   "off\0split\0flip\0side by side\0difference\0error map\0\0"))
-        model.comparison().set_mode(static_cast<CompareMode>(mode));
+    CompareMode mode = model.comparison().state().mode;
+    if (choice_row("Mode", "Keys C and Shift+C; G flips to the other picture.", &mode))
+        model.comparison().set_mode(mode);
     draw_side_choice(model, false);
     draw_side_choice(model, true);
     bool turns = model.comparison().in_turns();

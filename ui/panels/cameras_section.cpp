@@ -83,9 +83,7 @@ void draw_sequence(ViewerModel& model) {
     if (double_row("Seconds each", "Work for a frame; the first limit ends it. 0: no limit.", &seconds, 1.0, "%.1f",
                    "no limit"))
         options.seconds = static_cast<float>(std::max(seconds, 0.0));
-    int kind = options.kind == ImageKind::Exr ? 1 : 0;
-    if (choice_row("Files", "PNG with exposure and tone curve, or linear EXR.", &kind, "PNG\0EXR\0"))
-        options.kind = kind == 1 ? ImageKind::Exr : ImageKind::Png;
+    choice_row("Files", "Kind of the pictures.", &options.kind);
     const bool is_writing = sequence.progress().has_value();
     if (wide_button(
             is_writing ? "Stop writing" : "Write the path as pictures",

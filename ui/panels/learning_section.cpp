@@ -1,9 +1,11 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
+#include "core/fields/field_choices.h"
 #include "ui/draw/value_text.h"
 #include "ui/draw/widgets.h"
 #include "ui/draw/words.h"
@@ -30,28 +32,12 @@ void draw_refinement(ViewerModel& model, FieldSettings settings) {
 
 /// The targets of training samples and the learning rate. Every change restarts pictures and fields.
 void draw_learning_targets(ViewerModel& model, FieldSettings settings) {
-    constexpr std::array kRates{LearningRate::SampleMean, LearningRate::Forgetful};
-    int rate = static_cast<int>(std::ranges::find(kRates, settings.rate) - kRates.begin());
-    int target = static_cast<int>(settings.learning.target);
-    int light = static_cast<int>(settings.learning.light);
-    bool changed =
-        choice_row("Learning rate",
-                   "Step of an update with n training samples so far. Mean: 1/(1+n). Forgetful: discounts early "
-                   "training samples.",
-                   &rate, "Mean\0Forgetful\0");
+    bool changed = choice_row("Learning rate", "Step of an update.", &settings.rate);
     changed |=
-        choice_row("Learns from",
-                   "The target of a training sample. Expected Sarsa: the expected reflected radiance at the next "
-                   "vertex. Sarsa: the learned radiance of the next direction. Monte Carlo: the radiance of "
-                   "the rest of the path. Only tables learn from the last two.",
-                   &target, "Expected Sarsa\0Sarsa\0Monte Carlo\0");
-    changed |= choice_row("Light",
-                          "With light samples: learn all incident radiance, or only the part without light samples.",
-                          &light, "All\0Indirect\0");
-    if (!changed) return;
-    settings.rate = kRates[static_cast<std::size_t>(rate)];
-    settings.learning = {static_cast<LearningTarget>(target), static_cast<LearnedLight>(light)};
-    model.render().set_field(settings);
+        choice_row("Learns from", "The target of a training sample. Only tables learn from others than the first.",
+                   &settings.learning.target);
+    changed |= choice_row("Light", "With light samples, what a method learns.", &settings.learning.light);
+    if (changed) model.render().set_field(settings);
 }
 
 /// Number of passes and training samples of the method on show.
@@ -83,15 +69,8 @@ void draw_field(ViewerModel& model) {
             &mixture.bsdf_fraction, {kMinBsdfFraction, 1.0f, MixtureSettings{}.bsdf_fraction, "%.2f"}))
         model.render().set_mixture(mixture);
     FieldSettings settings = model.render().settings().field;
-    auto representation = static_cast<int>(index_of(settings.representation));
-    if (choice_row(
-            "Field",
-            "How a method that learns represents directions. Table: cells of each volume. SD-tree: quadtrees at the "
-            "leaves of a tree over space. Lobes: a mixture of smooth peaks in each volume. Neural: a network that "
-            "gives each vertex a mixture of smooth peaks. SD-tree and lobes on the CPU alone; precomputed maps are "
-            "tables.",
-            &representation, "Table\0SD-tree\0Lobes\0Neural\0")) {
-        settings.representation = kAllRepresentations[static_cast<std::size_t>(representation)];
+    if (choice_row("Field", "How a method that learns represents directions; precomputed maps are tables.",
+                   &settings.representation)) {
         if (!has_target(settings.representation, settings.learning.target))
             settings.learning.target = LearningTarget::ExpectedSarsa;
         model.render().set_field(settings);
@@ -105,11 +84,12 @@ void draw_field(ViewerModel& model) {
         model.render().set_field(settings);
     }
     draw_refinement(model, settings);
-    int side = static_cast<int>(std::lround(std::sqrt(settings.bins))) - 2;
-    if (choice_row("Directions", "Cells of the hemisphere of a volume.", &side,
-                   "4\0009\00016\00025\00036\00049\00064\00081\000100\000121\000144\000169\000196\000225\0002"
-                   "56\000")) {
-        settings.bins = (side + 2) * (side + 2);
+    constexpr int kLeastSide = 2, kMostSide = 32;
+    std::vector<std::string> squares;
+    for (int side = kLeastSide; side <= kMostSide; ++side) squares.push_back(std::to_string(side * side));
+    int step = static_cast<int>(std::lround(std::sqrt(settings.bins))) - kLeastSide;
+    if (choice_row("Directions", "Cells of the hemisphere of a volume.", &step, squares)) {
+        settings.bins = (kLeastSide + step) * (kLeastSide + step);
         model.render().set_field(settings);
     }
     draw_learning_targets(model, settings);

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "core/io/surface_names.h"
 #include "core/scene/glass.h"
 #include "ui/draw/widgets.h"
 #include "ui/panels/panels.h"
@@ -140,10 +141,7 @@ void draw_material_tab(ViewerModel& model) {
     draw_list(model, index);
     const MaterialDescription& file = model.scene().materials().in_file(index);
     MaterialDescription material = model.scene().materials().now()[index];
-    int kind = static_cast<int>(material.kind);
-    bool changed =
-        choice_row("Kind", "The BSDF of the surface.", &kind, "Diffuse\0Metal\0Glass\0Coated\0Thin pane\0");
-    material.kind = static_cast<SurfaceKind>(kind);
+    bool changed = choice_row("Kind", "The BSDF of the surface.", &material.kind);
     changed |= draw_reflection(material, file);
     changed |= draw_emission(material, file);
     changed |= draw_opacity(material, file);

@@ -4,6 +4,7 @@
 
 #include "ui/draw/value_text.h"
 #include "ui/draw/widgets.h"
+#include "ui/model/window_choices.h"
 #include "ui/panels/disc_widget.h"
 #include "ui/panels/panels.h"
 
@@ -14,16 +15,6 @@ constexpr float kTableEm = 8.6f;
 
 std::string guided_name(const PathExplorer& explorer) { return std::string(info_of(explorer.guided_method()).name); }
 
-/// A list without a label of its own. Scripts point at it by `name`.
-template <class Choice>
-void choice_list(const char* name, const char* tip, Choice& choice, const char* words, float width) {
-    int index = static_cast<int>(choice);
-    ImGui::SetNextItemWidth(width);
-    if (ImGui::Combo(fmt::format("##{}", name).c_str(), &index, words)) choice = static_cast<Choice>(index);
-    note_place(name);
-    tooltip(tip);
-}
-
 void draw_options(PathExplorer& explorer) {
     PathOptions& options = explorer.options();
     const float half = 0.5f * (ImGui::GetContentRegionAvail().x - em(0.4f));
@@ -33,11 +24,10 @@ void draw_options(PathExplorer& explorer) {
     note_place("number of paths");
     tooltip("Of the pixel, by each method. Ctrl+click to type.");
     ImGui::SameLine(0.0f, em(0.4f));
-    choice_list("which paths", "The brightest of up to 16384 samples of the picture, or the newest: a fair sample.",
-                options.choice, "brightest\0newest\0", half);
-    choice_list("methods of paths",
-                "Both have the same random numbers; those of default are dashed beside those of the guided method.",
-                options.sides, "default\0guided\0both methods\0", half);
+    choice_row("which paths", "Of the samples of the picture.", &options.choice, half);
+    choice_row("methods of paths",
+               "Both have the same random numbers; those of default are dashed beside those of the guided method.",
+               &options.sides, half);
     ImGui::SameLine(0.0f, em(0.4f));
     ImGui::Checkbox("shadow rays", &options.has_shadow_rays);
     tooltip("To the visible lights of light samples; the selected path always has them.");

@@ -1,11 +1,15 @@
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
+#include "core/session/choices.h"
 #include "ui/draw/widgets.h"
 #include "ui/draw/words.h"
 #include "ui/input/perform_action.h"
+#include "ui/model/window_choices.h"
 #include "ui/panels/panels.h"
 
 namespace pl::ui {
@@ -106,20 +110,10 @@ void draw_estimator(ViewerModel& model) {
     if (int_row("Max depth", "Largest number of path vertices; Russian roulette ends most paths earlier. Default 64.",
                 &depth, 1))
         model.render().set_max_depth(std::clamp(depth, 1, 1024));
-    int roulette = static_cast<int>(model.render().settings().roulette);
-    if (choice_row("Roulette",
-                   "The rule of Russian roulette. Spare: the product of albedos ends paths, a large contribution "
-                   "estimate keeps "
-                   "them. Albedo: the product of albedos alone. Off: paths end by the max depth alone.",
-                   &roulette, "Spare\0Albedo\0Off\0"))
-        model.render().set_roulette(static_cast<RouletteRule>(roulette));
-    int guiding = static_cast<int>(model.render().settings().guiding);
-    if (choice_row("Guiding",
-                   "Guided methods with light samples. While it pays: where guiding takes more time than it saves, "
-                   "most passes are those of "
-                   "Default, and the field learns rarely. Always: every pass is guided, and learns.",
-                   &guiding, "While it pays\0Always\0"))
-        model.render().set_guiding(static_cast<GuidingRule>(guiding));
+    RouletteRule roulette = model.render().settings().roulette;
+    if (choice_row("Roulette", "The rule of Russian roulette.", &roulette)) model.render().set_roulette(roulette);
+    GuidingRule guiding = model.render().settings().guiding;
+    if (choice_row("Guiding", "Guided methods with light samples.", &guiding)) model.render().set_guiding(guiding);
     int seed = static_cast<int>(model.render().settings().seed);
     if (int_row("Seed", "Same seed, scene and settings: same picture to the bit with any number of threads.", &seed,
                 1))
@@ -168,11 +162,10 @@ void draw_camera(ViewerModel& model) {
 }
 
 void draw_view(ViewerModel& model) {
-    std::string labels;
-    for (const ViewInfo& view : all_views()) labels += std::string(view.label) + '\0';
+    std::vector<std::string> labels;
+    for (const ViewInfo& view : all_views()) labels.emplace_back(view.label);
     int view = static_cast<int>(model.render().settings().view);
-    if (choice_row("View", std::string(info_of(model.render().settings().view).summary).c_str(), &view,
-                   labels.c_str()))
+    if (choice_row("View", std::string(info_of(model.render().settings().view).summary).c_str(), &view, labels))
         model.render().set_view(all_views()[static_cast<std::size_t>(view)].id);
     float exposure = model.display().settings().exposure_ev;
     if (slider_row("Exposure", "In stops; display only.", &exposure, {-8.0f, 8.0f, 0.0f, "%+.2f EV"}))
@@ -181,10 +174,8 @@ void draw_view(ViewerModel& model) {
 }
 
 void draw_tone_curve(ViewerModel& model) {
-    int curve = static_cast<int>(model.display().settings().curve);
-    if (choice_row("Tone curve", "Display only. Clamp shows values up to 1 unchanged.", &curve,
-                   "Clamp\0Reinhard\0ACES fit\0"))
-        model.display().set_curve(static_cast<ToneCurve>(curve));
+    ToneCurve curve = model.display().settings().curve;
+    if (choice_row("Tone curve", "Display only.", &curve)) model.display().set_curve(curve);
 }
 
 void draw_field_displays(ViewerModel& model) {
@@ -197,11 +188,7 @@ void draw_field_displays(ViewerModel& model) {
     toggle_row("Hemisphere in the picture",
                "H: the field of the selected volume, and of pinned ones, drawn at their positions.",
                &model.window().hemisphere);
-    int shape = static_cast<int>(model.window().lobe_shape);
-    if (choice_row("Drawn as",
-                   "Shift+H. Lobes: their length is the density, on one scale. Glass dome: see through it.", &shape,
-                   "lobes\0glass dome\0"))
-        model.window().lobe_shape = static_cast<LobeShape>(shape);
+    choice_row("Drawn as", "Shift+H.", &model.window().lobe_shape);
     bool gain = model.gain_marks().is_shown();
     if (toggle_row(
             "Gain marks",
@@ -231,10 +218,13 @@ void draw_window_displays(ViewerModel& model) {
                    &preview))
         model.display().set_preview(preview);
     ImGui::EndDisabled();
-    int scale = static_cast<int>(std::lround((model.window().ui_scale - 0.75f) / 0.25f));
-    if (choice_row("Text size", "Size of text and controls; also --ui-scale.", &scale,
-                   "75 %\000100 %\000125 %\000150 %\000175 %\000200 %\000"))
-        model.window().ui_scale = 0.75f + 0.25f * static_cast<float>(scale);
+    constexpr float kLeastScale = 0.75f, kMostScale = 2.0f, kScaleStep = 0.25f;
+    std::vector<std::string> sizes;
+    for (float scale = kLeastScale; scale <= kMostScale; scale += kScaleStep)
+        sizes.push_back(fmt::format("{:.0f} %", 100.0f * scale));
+    int size = static_cast<int>(std::lround((model.window().ui_scale - kLeastScale) / kScaleStep));
+    if (choice_row("Text size", "Size of text and controls; also --ui-scale.", &size, sizes))
+        model.window().ui_scale = kLeastScale + kScaleStep * static_cast<float>(size);
 }
 
 void draw_display(ViewerModel& model) {

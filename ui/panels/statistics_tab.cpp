@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "core/fields/field_choices.h"
 #include "core/scene/needed_effects.h"
 #include "ui/draw/value_text.h"
 #include "ui/draw/widgets.h"
@@ -81,11 +82,9 @@ void draw_field(const std::optional<FieldStatus>& field) {
     text_row("Volumes", fmt::format("{} x {} directions", field->volumes, field->bins));
     if (field->added_volumes > 0)
         text_row("Added", fmt::format("{} volumes", field->added_volumes), "By refinement after 8 and 16 passes.");
-    if (field->representation == Representation::SdTree)
-        text_row("Directions", "SD-tree",
-                 "Quadtrees at the leaves of a tree over space; volumes keep the irradiance.");
-    if (field->representation == Representation::Lobes)
-        text_row("Directions", "lobes", "A mixture of von Mises-Fisher lobes in each volume.");
+    if (!has_tables(field->representation))
+        text_row("Directions", std::string(label_of(field->representation)),
+                 choice_tip<Representation>("How the field represents them.").c_str());
     if (field->network)
         text_row("Network",
                  field->network->is_lost

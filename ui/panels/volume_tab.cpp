@@ -6,6 +6,7 @@
 #include "ui/draw/method_keys.h"
 #include "ui/draw/value_text.h"
 #include "ui/draw/widgets.h"
+#include "ui/model/window_choices.h"
 #include "ui/panels/figure_curves.h"
 #include "ui/panels/panels.h"
 #include "ui/panels/volume_discs.h"
@@ -14,12 +15,7 @@ namespace pl::ui {
 namespace {
 
 void draw_choices(CellDisplay& display) {
-    int quantity = static_cast<int>(display.quantity);
-    ImGui::SetNextItemWidth(em(8.0f));
-    if (ImGui::Combo("##quantity", &quantity, "radiance Q\0probability P\0density\0visits\0"))
-        display.quantity = static_cast<CellQuantity>(quantity);
-    tooltip("Q: incident radiance of a cell. P: its probability in the table. Density: that paths are sampled with, "
-            "relative to cosine sampling. Visits: training samples.");
+    choice_row("quantity", "Of a cell.", &display.quantity, em(8.0f));
     ImGui::SameLine();
     bool logarithmic = display.range.scale == ColorScale::Logarithmic;
     if (ImGui::Checkbox("log", &logarithmic))

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "ui/model/window_choices.h"
+
 namespace pl::ui {
 namespace {
 
@@ -29,10 +31,7 @@ constexpr std::array kOverlayValues{
                     return fmt::format("{}",
                                        std::ranges::count_if(places, [](std::int32_t p) { return p != kNoVolume; }));
                 }},
-    ScriptValue{"lobes",
-                [](const ViewerModel& m) {
-                    return std::string(m.window().lobe_shape == LobeShape::Lobe ? "lobes" : "dome");
-                }},
+    ScriptValue{"lobes", [](const ViewerModel& m) { return std::string(pl::name_of(m.window().lobe_shape)); }},
     ScriptValue{"flowers",
                 [](const ViewerModel& m) {
                     const bool shown = m.flowers().is_shown() && m.flowers().flowers() != nullptr;

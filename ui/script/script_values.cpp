@@ -120,7 +120,7 @@ constexpr std::array kValues{
     Value{"plotted",
           [](const ViewerModel& m) { return std::string(info_of(m.comparison().accuracy().kind().metric).label); }},
     Value{"headline", headline_text},
-    Value{"compare", [](const ViewerModel& m) { return std::string(name_of(m.comparison().state().mode)); }},
+    Value{"compare", [](const ViewerModel& m) { return std::string(label_of(m.comparison().state().mode)); }},
     Value{"sides", shown_sides},
     Value{"split", [](const ViewerModel& m) { return fmt::format("{:.2f}", m.comparison().state().split); }},
     Value{"cursor", cursor_kind},

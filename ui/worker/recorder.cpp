@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/measure/picture_identity.h"
+#include "core/session/choices.h"
 
 namespace pl::ui {
 namespace {
@@ -13,12 +14,11 @@ std::string details_of(const Session& session, FilmSlot slot) {
     const RenderSettings standard;
     std::string text;
     const auto add = [&](const std::string& part) { text += (text.empty() ? "" : ", ") + part; };
-    if (settings.roulette == RouletteRule::Albedo) add("albedo roulette");
-    if (settings.roulette == kNoRoulette) add("no roulette");
+    if (settings.roulette != standard.roulette) add(fmt::format("roulette {}", name_of(settings.roulette)));
     const FeatureSet needed = session.needed_features(slot);
     if (!needed.covers(session.film_origin(slot).forced)) add("effects forced");
     if (!info_of(slot.method).uses_field) return text;
-    if (settings.guiding == GuidingRule::Always) add("always guided");
+    if (settings.guiding != standard.guiding) add(fmt::format("guiding {}", name_of(settings.guiding)));
     FieldSettings field = settings.field;
     if (field.volumes != standard.field.volumes) add(fmt::format("{} volumes", field.volumes));
     if (field.bins != standard.field.bins) add(fmt::format("{} bins", field.bins));

@@ -32,13 +32,17 @@ std::vector<Wrong> wrong_settings() {
         {"bins: expected a square number from 4 to 1024, got 5", [](F& f, V&) { f.settings.bins = 5; }},
         {"bins: expected a square number", [](F& f, V&) { f.settings.bins = 33 * 33; }},
         {"bins: expected a square number", [](F& f, V&) { f.settings.bins = -4; }},
-        {"learning rate: expected 1 or 4, got 5", [](F& f, V&) { f.settings.rate = static_cast<LearningRate>(5); }},
-        {"learning rate: expected 1 or 4, got 2", [](F& f, V&) { f.settings.rate = static_cast<LearningRate>(2); }},
-        {"learning rate: expected 1 or 4, got 3", [](F& f, V&) { f.settings.rate = static_cast<LearningRate>(3); }},
-        {"learning rate: expected 1 or 4, got 0", [](F& f, V&) { f.settings.rate = static_cast<LearningRate>(0); }},
-        {"learning target: expected 0 to 2, got 3",
+        {"learning rate: expected one of 1 (mean), 4 (forgetful), got 5",
+         [](F& f, V&) { f.settings.rate = static_cast<LearningRate>(5); }},
+        {"learning rate: expected one of 1 (mean), 4 (forgetful), got 2",
+         [](F& f, V&) { f.settings.rate = static_cast<LearningRate>(2); }},
+        {"learning rate: expected one of 1 (mean), 4 (forgetful), got 3",
+         [](F& f, V&) { f.settings.rate = static_cast<LearningRate>(3); }},
+        {"learning rate: expected one of 1 (mean), 4 (forgetful), got 0",
+         [](F& f, V&) { f.settings.rate = static_cast<LearningRate>(0); }},
+        {"learning target: expected one of 0 (expected-sarsa), 1 (sarsa), 2 (monte-carlo), got 3",
          [](F& f, V&) { f.settings.learning.target = static_cast<LearningTarget>(3); }},
-        {"learned light: expected 0 or 1, got 2",
+        {"learned light: expected one of 0 (all), 1 (indirect), got 2",
          [](F& f, V&) { f.settings.learning.light = static_cast<LearnedLight>(2); }},
         {"uniform share: expected 0 to 1, got nan", [](F& f, V&) { f.settings.uniform_floor = kNan; }},
         {"precomputed samples: expected a square number", [](F& f, V&) { f.settings.precompute_samples = 0; }},
@@ -161,11 +165,12 @@ TEST_CASE("Damaged SD-trees in files are refused, whole ones come back") {
     CHECK_THAT(refused([&](LearnedField& f) { f.method = MethodId::Precomputed; }),
                contains("representation of the arrays: expected 0, got 1"));
     CHECK_THAT(refused([&](LearnedField& f) { f.settings.representation = static_cast<Representation>(5); }),
-               contains("representation: expected 0, 1, 2 or 4, got 5"));
+               contains("representation: expected one of 0 (table), 1 (sd-tree), 2 (lobes), 4 (neural), got 5"));
     CHECK_THAT(
         refused([&](LearnedField& f) { f.settings.representation = static_cast<Representation>(3); }),
-        contains("field of a representation that is no longer there: expected table, sd-tree, lobes or neural, got "
-                 "tables with a network as their prior"));
+        contains(
+            "field of a representation that is no longer there: expected one of table, sd-tree, lobes, neural, got "
+            "tables with a network as their prior"));
 }
 
 TEST_CASE("Damaged lobes in files are refused, whole ones come back") {

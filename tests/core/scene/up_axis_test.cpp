@@ -104,10 +104,10 @@ TEST_CASE("A plane lies on the ground") {
 }
 
 TEST_CASE("Names of vertical axes, and the direction of each") {
-    CHECK(up_axis_named("auto") == UpAxis::Auto);
-    CHECK(up_axis_named("z") == UpAxis::Z);
-    CHECK_FALSE(up_axis_named("Z").has_value());
-    CHECK_FALSE(up_axis_named("").has_value());
+    CHECK(choice_named<UpAxis>("auto") == UpAxis::Auto);
+    CHECK(choice_named<UpAxis>("z") == UpAxis::Z);
+    CHECK_FALSE(choice_named<UpAxis>("Z").has_value());
+    CHECK_FALSE(choice_named<UpAxis>("").has_value());
     const SceneDescription upright = table();
     CHECK(up_direction(UpAxis::Auto, upright) == kY);
     CHECK(up_direction(UpAxis::Auto, lifted(upright)) == kZ);

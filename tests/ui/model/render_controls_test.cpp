@@ -71,13 +71,12 @@ TEST_CASE("Render controls: an SD-tree is chosen on the CPU, and keeps the other
     model.render().set_backend("cuda");
     CHECK(model.render().wanted_backend() == "cpu");
     REQUIRE_FALSE(model.messages().toasts().empty());
-    CHECK(model.messages().toasts().back().text == "CUDA has no kernels for the SD-tree: it needs the CPU");
+    CHECK(model.messages().toasts().back().text == "CUDA has no kernels for the field SD-tree: it needs the CPU");
     FieldSettings sarsa = tree;
     sarsa.learning.target = LearningTarget::Sarsa;
     model.render().set_field(sarsa);
     CHECK(model.render().settings().field.learning.target == LearningTarget::ExpectedSarsa);
-    CHECK(model.messages().toasts().back().text ==
-          "Sarsa and Monte Carlo train tables alone: this field learns by Expected Sarsa");
+    CHECK(model.messages().toasts().back().text == "Sarsa trains tables alone: this field learns by Expected Sarsa");
     FieldSettings lobes = tree;
     lobes.representation = Representation::Lobes;
     model.render().set_field(lobes);
