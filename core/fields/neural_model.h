@@ -118,7 +118,7 @@ static_assert(VolumeSummary<NeuralSummary>);
 
 /// The mixture at the site of a volume.
 VertexMixture mixture_of_volume(const NeuralField& field, std::uint32_t volume);
-/// Its density in a direction of the volume's hemisphere relative to that of cosine sampling. `local` in the frame of the normal.
+/// The density of `mixture` in direction `local`, in the frame of the volume's normal, divided by the density of cosine sampling.
 float relative_density(const NeuralField& field, std::uint32_t volume, const VertexMixture& mixture, Vec3f local);
 
 template <template <class> class Array>

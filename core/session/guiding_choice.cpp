@@ -17,7 +17,7 @@ constexpr double kMature = 640.0;
 constexpr double kLeastGainOfYoung = 0.1;
 constexpr double kLeastGainOfLearning = 0.9;
 constexpr double kLeastGain = 1.04;
-/// By a coarse map and both errors: a complete one gains a fifth more, and takes a few passes.
+/// The least gain by both errors at which a coarse map guides: completing the map takes a few passes, and gains a fifth more.
 constexpr double kLeastGainOfCoarse = 0.9;
 /// The gain by both errors is at most so many times that by variance, which is the surer one: relative variances of small pictures, and of
 /// few samples, are noisy.

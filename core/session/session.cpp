@@ -38,7 +38,7 @@ ServedKernel Session::served_kernel(FilmSlot slot) const {
     return pl::served_kernel(backend_->info().name, *scene_.packed(), settings_for(slot));
 }
 
-/// Tables are as large before they are made.
+/// The size of tables follows from their shape; the back end is asked for other fields only, since it may have to wait for a device.
 FieldReport Session::field_report(MethodId method) const {
     if (representation_of(settings_.field, method) == Representation::Table)
         return {.bytes = placement_.count() * table_bytes(placement_.bins(), placement_.shape().light_clusters)};

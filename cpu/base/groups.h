@@ -203,11 +203,11 @@ struct alignas(64) LightHitGroup {
     float pdf_area[kGroupSize] = {};  ///< the result: see light_pdf_area()
 };
 
-/// A light sample for each of a VertexGroup: members as in ChosenLight, LightPoint and DirectLight, and the results of weighing it.
+/// One light sample for each vertex of a VertexGroup: the chosen light, the point on it, and the weight of the sample.
 struct alignas(64) LightSampleGroup {
-    std::uint32_t light[kGroupSize] = {};  ///< this and the next two: by a tree
-    float pdf_area[kGroupSize] = {};
-    std::uint32_t cluster[kGroupSize] = {};
+    std::uint32_t light[kGroupSize] = {};  ///< index of the light that the light tree chose
+    float pdf_area[kGroupSize] = {};  ///< density of choosing it and the point on it, per area; set by the light tree
+    std::uint32_t cluster[kGroupSize] = {};   ///< cluster of the light, see LightTree
     std::int32_t is_behind[kGroupSize] = {};  ///< not 0: its back is seen
     VectorGroup weights;                      ///< barycentric, on the light
     float seen_pdf_sa[kGroupSize] = {};       ///< whichever side of the vertex the light is on; of emissive triangles

@@ -144,7 +144,7 @@ float attribute(const MixtureLight& light, MixtureShares& shares) {
     return logarithm.total();
 }
 
-/// Of this file alone, which a template of the header is not.
+/// Not a template of the header: the linker would merge its instances for all instruction sets.
 void evaluate_in_lanes(const float* weights, const float* inputs, float* outputs) {
     evaluate_vertex<LaneFloat>(weights, inputs, outputs);
 }

@@ -130,7 +130,7 @@ private:
         }
     }
 
-    /// Of three rows around kLaneWidth cells, at the border of two.
+    /// Sums over the row and its two neighbors, one at the border of the table, for kLaneWidth columns from `column` on.
     PL_INLINE ColumnSums<Lanes> column_sums(std::uint32_t row, std::uint32_t column) const {
         ColumnSums<Lanes> sums{LaneFloat{}, LaneFloat{}};
         const std::uint32_t first = row > 0 ? row - 1 : row;

@@ -156,7 +156,7 @@ bool are_finite(const LargeArray<float>& values) {
     return std::ranges::all_of(values, [](float value) { return std::isfinite(value); });
 }
 
-/// By which a sequence takes each of `count` volumes in turn, neighbors far apart.
+/// A stride coprime to `count`, near the golden ratio: steps by it visit every volume once, consecutive ones far apart.
 std::uint32_t far_stride(std::uint32_t count) {
     auto stride = static_cast<std::uint32_t>(0.6180339887 * count);
     while (std::gcd(std::max(stride, 1u), count) != 1) ++stride;
