@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 """Makes the pictures of the documents with the program, as PNGs of 256 colors.
 
-Usage: make_pictures.py PROGRAM [NAME...]   NAME is window, tour, error-map, door or effects; default: all
+Usage: make_pictures.py PROGRAM [NAME...]   NAME is window, tour, error-map, door, effects or learning; default: all
 
 For the first three the viewer plays pictures/NAME.script on SDL's dummy driver, so no display is needed; every `shot` of a script becomes
-a picture. The others are renderings, side by side where they are several.
+a picture. The others are renderings, side by side where they are several; `learning` is animated, and wants a quiet machine: each of its
+frames is `default` and `reinforcement` after the same time.
 """
 import os
 import re
@@ -28,6 +29,9 @@ RENDERINGS = {
     "door": (["door"], ["--method", "reinforcement", "--spp", "64", "--size", "300x300"]),
     "effects": (["spheres", "coats", "plates"], ["--method", "reinforcement", "--spp", "128", "--size", "300x300"]),
 }
+# Of the animation: scene and options of both halves, and the seconds of each frame.
+LEARNING = ["door", "--nee", "off", "--size", "240x240", "--threads", "1"]
+SECONDS = [0.1, 0.2, 0.4, 0.8, 1.6, 3.2]
 COLORS = 256
 
 
@@ -104,16 +108,28 @@ def side_by_side(pictures):
     return width, height, [pixel for row in rows for pixel in row]
 
 
-def shrink(sources, target):
-    """Writes PNGs as one of a palette: colors that differ in the last bit only count as equal."""
-    width, height, pixels = side_by_side([read_png(source) for source in sources])
-    pixels = [(r & 254, g & 254, b & 254) for r, g, b in pixels]
-    colors, index = palette_of(Counter(pixels))
-    numbers = bytes(index[p] for p in pixels)
-    rows = b"".join(b"\0" + numbers[y * width:(y + 1) * width] for y in range(height))
-    target.write_bytes(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 3, 0, 0, 0)) +
-                       chunk(b"PLTE", b"".join(map(bytes, colors))) + chunk(b"IDAT", zlib.compress(rows, 9)) +
-                       chunk(b"IEND", b""))
+def shrink(frames, target):
+    """Writes PNGs as one of a palette: colors that differ in the last bit only count as equal. Each frame is a list of files side by side;
+    several are an animation that lasts a second for each. [PNG specification, third edition, section 11.3.6]"""
+    pictures = [side_by_side([read_png(source) for source in sources]) for sources in frames]
+    width, height = pictures[0][:2]
+    pictures = [[(r & 254, g & 254, b & 254) for r, g, b in pixels] for _, _, pixels in pictures]
+    colors, index = palette_of(sum(map(Counter, pictures), Counter()))
+    chunks = [chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 3, 0, 0, 0))]
+    if len(frames) > 1:
+        chunks.append(chunk(b"acTL", struct.pack(">II", len(frames), 0)))
+    chunks.append(chunk(b"PLTE", b"".join(map(bytes, colors))))
+    count = 0
+    for i, pixels in enumerate(pictures):
+        numbers = bytes(index[p] for p in pixels)
+        rows = zlib.compress(b"".join(b"\0" + numbers[y * width:(y + 1) * width] for y in range(height)), 9)
+        if len(frames) > 1:
+            seconds = 3 if i + 1 == len(frames) else 1
+            chunks.append(chunk(b"fcTL", struct.pack(">IIIIIHHBB", count, width, height, 0, 0, seconds, 1, 0, 0)))
+            count += 1
+        chunks.append(chunk(b"IDAT", rows) if i == 0 else chunk(b"fdAT", struct.pack(">I", count) + rows))
+        count += i > 0
+    target.write_bytes(b"\x89PNG\r\n\x1a\n" + b"".join(chunks) + chunk(b"IEND", b""))
     print(f"{target}: {target.stat().st_size} bytes")
 
 
@@ -123,7 +139,18 @@ def render(program, name):
         files = [Path(work) / f"{scene}.png" for scene in scenes]
         for scene, file in zip(scenes, files):
             subprocess.run([program, "render", scene, "-o", file, *options, "--backend", "cpu", "--quiet"], check=True)
-        shrink(files, DOCS / "images" / f"{name}.png")
+        shrink([files], DOCS / "images" / f"{name}.png")
+
+
+def animate(program, name):
+    with tempfile.TemporaryDirectory() as work:
+        frames = []
+        for seconds in SECONDS:
+            frames.append([Path(work) / f"{method}-{seconds}.png" for method in ("default", "reinforcement")])
+            for method, file in zip(("default", "reinforcement"), frames[-1]):
+                subprocess.run([program, "render", *LEARNING, "--method", method, "--time-limit", str(seconds), "-o", file,
+                                "--backend", "cpu", "--quiet"], check=True)
+        shrink(frames, DOCS / "images" / f"{name}.png")
 
 
 def play(program, name):
@@ -134,16 +161,16 @@ def play(program, name):
         subprocess.run([program, "view", *arguments, "--backend", "cpu", "--script", str(script)], check=True, cwd=work,
                        env=os.environ | {"SDL_VIDEODRIVER": "dummy"})
         for shot in re.findall(r"^\d+ shot (\S+)$", script.read_text(), re.MULTILINE):
-            shrink([Path(work) / shot], folder / shot)
+            shrink([[Path(work) / shot]], folder / shot)
 
 
 def main():
-    names = [*PICTURES, *RENDERINGS]
+    names = [*PICTURES, *RENDERINGS, "learning"]
     if len(sys.argv) < 2 or set(sys.argv[2:]) - set(names):
         sys.exit(__doc__)
     program = str(Path(sys.argv[1]).resolve())
     for name in sys.argv[2:] or names:
-        (play if name in PICTURES else render)(program, name)
+        (play if name in PICTURES else render if name in RENDERINGS else animate)(program, name)
 
 
 if __name__ == "__main__":
