@@ -27,7 +27,7 @@ std::vector<std::string> names_of(const OptionSpec& spec) {
 
 std::string manual() { return read_all(PL_SOURCE_DIR "/docs/manual.md"); }
 
-std::string quoted(std::string_view name) { return "`" + std::string(name) + "`"; }
+std::string in_quotes(std::string_view name) { return "`" + std::string(name) + "`"; }
 
 /// The row of a table of the manual that has a text in backticks.
 std::string row_with(const std::string& text) {
@@ -83,7 +83,7 @@ TEST_CASE("the manual lists the values of a choice, no others, and the default")
         const std::string row = row_with("--" + std::string(spec.name) + " NAME");
         CAPTURE(row);
         const std::vector<std::string> names = names_of(spec);
-        for (const std::string& name : names) CHECK_THAT(row, contains(quoted(name)));
+        for (const std::string& name : names) CHECK_THAT(row, contains(in_quotes(name)));
         const std::regex word("`([a-z-]+)`");
         for (std::sregex_iterator found(row.begin(), row.end(), word), end; found != end; ++found) {
             const std::string text = (*found)[1];
@@ -91,7 +91,7 @@ TEST_CASE("the manual lists the values of a choice, no others, and the default")
             if (!text.starts_with("-")) CHECK((is_other_word(text) || std::ranges::find(names, text) != names.end()));
         }
         const std::string standard = spec.print(Options{});
-        if (!standard.empty()) CHECK_THAT(row.substr(row.find(" | ") + 1), contains(quoted(standard)));
+        if (!standard.empty()) CHECK_THAT(row.substr(row.find(" | ") + 1), contains(in_quotes(standard)));
     }
     for (const ViewInfo& view : all_views()) {
         CAPTURE(std::string(view.name));

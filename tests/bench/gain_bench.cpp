@@ -40,7 +40,7 @@ bench::Reference reference_of(const GainSetup& setup, const std::string& name,
     settings.next_event = true;
     const bench::ReferenceStore store(setup.words.at("references"));
     const auto spp = static_cast<std::uint32_t>(setup["reference"]);
-    if (auto found = store.find(content_of(*scene, settings));
+    if (auto found = store.find(bench::content_of(*scene, settings));
         found && found->halves[0].spp >= spp && found->halves[1].spp >= spp)
         return *std::move(found);
     Session session(make_cpu_backend({.threads = setup.integer("threads")}), scene, settings);
