@@ -104,8 +104,8 @@ TEST_CASE("without roulette paths end by their depth alone, and the picture is t
     const ProgramResult paths = run_program({"trace", "cornell", "--size", "32x32", "--pixel", "16,24", "--sample",
                                              "0-255", "--roulette", "off", "--max-depth", "4", "--json"});
     REQUIRE(paths.code == 0);
-    CHECK(paths.out.find("\"reason\":\"roulette\"") == std::string::npos);
-    CHECK(paths.out.find("\"reason\":\"depth-limit\"") != std::string::npos);
+    CHECK(paths.out.find("\"end\":\"roulette\"") == std::string::npos);
+    CHECK(paths.out.find("\"end\":\"depth-limit\"") != std::string::npos);
 }
 
 TEST_CASE("every method renders every view") {

@@ -86,12 +86,12 @@ TEST_CASE("A hundred thousand damaged copies of the corpora are read or refused"
 TEST_CASE("Scripts of the corpora are played on the viewer's model and panels", "[hard]") {
     const auto play = [](const char* script) { play_script(parse_script(script, "s")); };
     const std::string click =
-        "3 aim_at 0.5 0.5 Effects\n4 down left\n5 up left\n8 aim_at 0.5 0.5 measure all effects";
+        "3 aim_at 0.5 0.5 Paths\n4 down left\n5 up left\n8 aim_at 0.5 0.5 Trace the clicked pixel";
     CHECK_NOTHROW(play(click.c_str()));
-    CHECK_THROWS_WITH(play("3 aim_at 0.5 0.5 measure all effects"),
-                      contains("there is no control 'measure all effects'"));
-    CHECK_THROWS_WITH(play("0 tap Tab\n3 aim_at 0.5 0.5 Effects"), contains("there is no control 'Effects'"));
-    CHECK_NOTHROW(play("0 tap Tab\n2 tap Tab\n6 aim_at 0.5 0.5 Effects"));
+    CHECK_THROWS_WITH(play("3 aim_at 0.5 0.5 Trace the clicked pixel"),
+                      contains("there is no control 'Trace the clicked pixel'"));
+    CHECK_THROWS_WITH(play("0 tap Tab\n3 aim_at 0.5 0.5 Paths"), contains("there is no control 'Paths'"));
+    CHECK_NOTHROW(play("0 tap Tab\n2 tap Tab\n6 aim_at 0.5 0.5 Paths"));
 }
 #endif
 

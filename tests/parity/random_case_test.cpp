@@ -39,6 +39,6 @@ TEST_CASE("Random cases cover scenes, methods, targets and light samples, in siz
     CHECK(names.size() == 2);
     CHECK(methods.size() == all_methods().size());
     CHECK(targets.size() == 3);
-    CHECK(representations.size() == 3);
+    CHECK(representations.size() == 2);
     CHECK(light_samples.size() == 2);
 }

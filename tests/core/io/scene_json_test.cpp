@@ -79,7 +79,7 @@ TEST_CASE("Everything a scene file may say") {
     using Setting = std::pair<std::string, std::string>;
     CHECK(scene.settings ==
           std::vector<Setting>{
-              {"exposure", "-1.5"}, {"method", "reinforcement"}, {"nee", "on"}, {"size", "640x480"}, {"spp", "128"}});
+              {"spp", "128"}, {"nee", "on"}, {"method", "reinforcement"}, {"exposure", "-1.5"}, {"size", "640x480"}});
 }
 
 TEST_CASE("A clear sky is a map and a sun, around the axis that the file says") {
