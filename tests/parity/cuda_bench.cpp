@@ -1,6 +1,5 @@
 // cuda_bench [OPTIONS]: the speed of the CUDA back end on the present device, by the host's clock, as records for device_tables.py
-// (record.h). Medians of passes. The lookups among 20 000 volumes are compared in the same run, and so are guided and unguided
-// segments.
+// (record.h). Medians of passes. Guided and unguided segments are compared in the same run.
 #include <algorithm>
 #include <cstdlib>
 

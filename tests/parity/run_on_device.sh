@@ -47,9 +47,9 @@ scenes_c=cornell,coats
 # Sizes for a device, and for a rehearsal on a CPU.
 if [[ -z $rehearsal ]]; then
     compare_options=(--side 128 --passes 16) compare_c=("${compare_options[@]}" --scenes "$scenes_c")
-    bench_a=(--seconds 0.2 --sizes 512x512,1920x1080 --volumes 0)
+    bench_a=(--seconds 0.2 --sizes 512x512,1920x1080)
     bench_b=(--seconds 0.4 --also coats,staircase --ball-rows 501)
-    bench_c=(--seconds 0.2 --sizes 1920x1080 --also coats,staircase --ball-rows 501 --volumes 0)
+    bench_c=(--seconds 0.2 --sizes 1920x1080 --also coats,staircase --ball-rows 501)
     times_options=(--scenes cornell,staircase)
     parity_a=('~[merge]') parity_b=('[merge]')
     profiled=(--spp 512 --size 1920x1080) launches_skipped=30
@@ -57,8 +57,8 @@ else
     time_scale=10
     compare_options=(--side 12 --passes 2 --volumes 20 --scenes cornell,door)
     compare_c=(--side 12 --passes 2 --volumes 20 --scenes "$scenes_c")
-    bench_a=(--seconds 0.01 --sizes 16x16 --volumes 0)
-    bench_b=(--seconds 0.01 --sizes 16x16 --volumes 50 --ball-rows 20)
+    bench_a=(--seconds 0.01 --sizes 16x16)
+    bench_b=(--seconds 0.01 --sizes 16x16 --ball-rows 20)
     bench_c=("${bench_a[@]}" --also coats)
     times_options=(--scenes cornell --width 16 --height 16 --passes 2 --megabytes 1)
     parity_a=('An update with the same training samples is equal to the bit')
