@@ -82,7 +82,7 @@ TEST_CASE("Render controls: an SD-tree is chosen on the CPU, and keeps the other
     model.render().set_field(lobes);
     CHECK(model.render().settings().field.representation == Representation::Lobes);
     model.render().set_backend("cuda");
-    CHECK(model.messages().toasts().back().text == "CUDA has no kernels for lobes: they need the CPU");
+    CHECK(model.messages().toasts().back().text == "CUDA has no kernels for the field Lobes: it needs the CPU");
     FieldSettings neural = tree;
     neural.representation = Representation::Neural;
     model.render().set_field(neural);
