@@ -46,11 +46,11 @@ inline LampOverFloor lamp_above(float x, float z) {
             static_cast<double>(rectangle_detail::kAlbedo) * factor};
 }
 
-/// The lamp is a strip at height 0.5, x in [-2, 2], z in [0.1, 0.14], and shines down.
+/// The lamp is a strip at height 0.5, x in [-2, 2], z in [0.1, 0.5], and shines down.
 inline LampOverFloor lamp_strip() {
-    const std::array<Vec3f, 4> lamp{Vec3f{-2.0f, 0.5f, 0.1f}, Vec3f{2.0f, 0.5f, 0.1f}, Vec3f{2.0f, 0.5f, 0.14f},
-                                    Vec3f{-2.0f, 0.5f, 0.14f}};
-    const double factor = 2.0 * (parallel_corner_factor(2.0, 0.14, 0.5) - parallel_corner_factor(2.0, 0.1, 0.5));
+    const std::array<Vec3f, 4> lamp{Vec3f{-2.0f, 0.5f, 0.1f}, Vec3f{2.0f, 0.5f, 0.1f}, Vec3f{2.0f, 0.5f, 0.5f},
+                                    Vec3f{-2.0f, 0.5f, 0.5f}};
+    const double factor = 2.0 * (parallel_corner_factor(2.0, 0.5, 0.5) - parallel_corner_factor(2.0, 0.1, 0.5));
     return {rectangle_detail::lamp_scene(lamp, Vec3f{0.0f}), static_cast<double>(rectangle_detail::kAlbedo) * factor};
 }
 
