@@ -77,6 +77,16 @@ expect_none 'namespace pl {\ninline Plain make() { struct Aligned { int x; }; re
 expect_none 'namespace pl {\nnamespace {\nstruct Own {};\n}\n}\nnamespace pl::more {\nnamespace {\nstruct Own {};\n}\n}\n'
 expect_none '/* struct Plain {\n}; */ namespace pl { int a = 1'\''000; // {\n}\n'
 
+# What is compiled per instruction set is in an unnamed namespace.
+lanes='// Included by one file per instruction set.\nnamespace pl {\n'
+for text in 'template <>\nstruct Template<int> {};\n}\n' 'inline int width() { return 8; }\n}\n' 'namespace {\nint a;\n}\nstruct Wide {};\n}\n'; do
+    reset "$lanes$text"
+    output=$(bash "$checker" "$tree") && fail "not found: $lanes$text"
+    [[ $output == "core/b.h:"*": expected an unnamed namespace around what is compiled per instruction set" ]] ||
+        fail "no word of the unnamed namespace in: $output"
+done
+expect_none "${lanes}namespace {\\nstruct Wide {};\\ninline int width() { return 8; }\\n}\\n}\\n"
+
 reset 'namespace pl {\n'
 output=$(bash "$checker" "$tree") && fail 'a bracket that is not closed was not told'
 [[ $output == *'core/b.h: a bracket is not closed'* ]] || fail "no word of the bracket in: $output"
