@@ -41,26 +41,22 @@ public:
     /// Whether all hooks of the method, if it has any, are called in lanes.
     static constexpr bool kHooksInLanes = Hookless<M> || LaneLearning<M>;
 
-    /// Path i goes on from `state`.
-    void set(std::uint32_t i, const State& state) {
+    /// Starts path i.
+    void start(std::uint32_t i, const State& state) {
         rays.set_ray(i, state.ray);
         numbers.set_path(i, state);
         set_sums(i, state);
         PathGroup& group = groups_[i / kGroupSize];
         group.direction_pdf_sa[i % kGroupSize] = state.direction_pdf_sa;
         group.vertices[i % kGroupSize] = state.vertices;
+        if constexpr (LaneLearning<M>) open_[i / kGroupSize].start(i % kGroupSize);
     }
-    /// Its radiance, throughput and survival.
+    /// The radiance, throughput and survival of path i.
     void set_sums(std::uint32_t i, const State& state) {
         PathGroup& group = groups_[i / kGroupSize];
         group.throughput.set(i % kGroupSize, state.throughput);
         group.radiance.set(i % kGroupSize, state.radiance);
         group.survival[i % kGroupSize] = state.survival;
-    }
-    /// Starts path i.
-    void start(std::uint32_t i, const State& state) {
-        set(i, state);
-        if constexpr (LaneLearning<M>) open_[i / kGroupSize].start(i % kGroupSize);
     }
     /// Calls step(state) for the state of path i, and keeps its radiance, throughput and survival.
     void with_state(std::uint32_t i, const auto& step) {

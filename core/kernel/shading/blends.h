@@ -20,8 +20,8 @@ struct MaterialPoint {
     Vec3f b;                 ///< barycentric weights
 };
 
-/// A number in [0, 1), uniform over arrivals: a function of the bits of a point and of the direction of arrival alone, so that whoever
-/// asks for the BSDF there decides alike, the branches of a path, too, which know the point but not the ray. Independent of
+/// A number in [0, 1), uniform over arrivals: a function of the bits of a point and of the direction of arrival alone, so that all who
+/// ask for the BSDF there, a replay of the path for one, decide alike. Independent of
 /// number_of_hit(), by other words, and for each `choice` in a row.
 PL_HD inline float number_of_choice(const MaterialPoint& point, Vec3f wo, std::uint32_t choice) {
     constexpr std::uint32_t kSalt = 0x626C656Eu;
