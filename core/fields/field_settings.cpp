@@ -109,7 +109,7 @@ std::size_t most_refined_volumes(const FieldSettings& settings, std::size_t plac
 
 FieldShape make_field_shape(const HostScene& scene, const FieldSettings& settings) {
     float brightest = rms(scene.environment);
-    for (const Vec3f& texel : scene.map_texels) brightest = std::max(brightest, rms(texel));
+    for (const MapTexel& texel : scene.map_texels) brightest = std::max(brightest, rms(texel.radiance));
     // A sun is so small and bright that fixed-point steps of its radiance would lose all other light: its mean over half of the
     // sky resolves both.
     const Sun& sun = scene.far_lights.sun;

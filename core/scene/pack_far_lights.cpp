@@ -1,6 +1,10 @@
 #include "core/scene/pack_far_lights.h"
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
+#include <numeric>
+#include <span>
 #include <vector>
 
 #include "core/scene/pack_scene.h"
@@ -70,10 +74,36 @@ void append_cdf(const std::vector<double>& weights, double sum, std::vector<floa
     }
 }
 
+/// Entries of a distribution for each bucket of its index: as many as a cache line holds.
+constexpr std::uint32_t kEntriesPerBucket = 16;
+
+IndexedCdf without_arrays(std::uint32_t count) {
+    return {{}, {}, count, std::bit_ceil(std::max(count / kEntriesPerBucket, 1u))};
+}
+
+/// Appends the index of the distribution that `values` end with.
+void append_index(const IndexedCdf& cdf, const std::vector<float>& values, std::vector<std::int32_t>& index) {
+    const auto first = values.end() - static_cast<std::ptrdiff_t>(cdf.count);
+    for (std::uint32_t bucket = 0; bucket <= cdf.buckets; ++bucket) {
+        const float begin = static_cast<float>(bucket) / static_cast<float>(cdf.buckets);
+        index.push_back(static_cast<std::int32_t>(std::upper_bound(first, values.end() - 1, begin) - first));
+    }
+}
+
+/// Probabilities of the entries whose cumulative probabilities these are.
+std::vector<float> differences(std::span<const float> cdf) {
+    std::vector<float> all(cdf.size());
+    std::adjacent_difference(cdf.begin(), cdf.end(), all.begin());
+    return all;
+}
+
 /// Packs the map and returns the integral of its luminance over the sphere.
 double pack_map(const EnvironmentMapDescription& map, HostScene& packed) {
     std::vector<double> rows;
     std::vector<double> row(map.width);
+    EnvironmentMap& to = packed.far_lights.map;
+    to.rows = without_arrays(map.height);
+    to.columns = without_arrays(map.width);
     double total = 0.0;
     for (std::uint32_t y = 0; y < map.height; ++y) {
         const double sine = std::sin(kPiExact * (y + 0.5) / map.height);
@@ -83,22 +113,33 @@ double pack_map(const EnvironmentMapDescription& map, HostScene& packed) {
             sum += row[x];
         }
         append_cdf(row, sum, packed.map_column_cdf);
+        append_index(to.columns, packed.map_column_cdf, packed.map_column_index);
         rows.push_back(sum);
         total += sum;
     }
     if (!(total > 0.0)) {
         packed.map_column_cdf.clear();
+        packed.map_column_index.clear();
+        to = {};
         return 0.0;
     }
     append_cdf(rows, total, packed.map_row_cdf);
-    packed.map_texels = map.texels;
-    packed.far_lights.map.width = map.width;
-    packed.far_lights.map.height = map.height;
-    packed.far_lights.map.turn = static_cast<float>(std::fmod(static_cast<double>(map.rotation_deg) / 360.0, 1.0));
-    packed.far_lights.map.has_axes = map.axes != glm::mat3(1.0f);
-    packed.far_lights.map.axis_x = map.axes[0];
-    packed.far_lights.map.axis_y = map.axes[1];
-    packed.far_lights.map.axis_z = map.axes[2];
+    append_index(to.rows, packed.map_row_cdf, packed.map_row_index);
+    const std::vector<float> of_rows = differences(packed.map_row_cdf);
+    packed.map_texels.reserve(map.texels.size());
+    for (std::uint32_t y = 0; y < map.height; ++y) {
+        const std::size_t first = std::size_t{y} * map.width;
+        const std::vector<float> of_columns = differences(std::span(packed.map_column_cdf).subspan(first, map.width));
+        for (std::uint32_t x = 0; x < map.width; ++x)
+            packed.map_texels.push_back({map.texels[first + x], of_rows[y] * of_columns[x]});
+    }
+    to.width = map.width;
+    to.height = map.height;
+    to.turn = static_cast<float>(std::fmod(static_cast<double>(map.rotation_deg) / 360.0, 1.0));
+    to.has_axes = map.axes != glm::mat3(1.0f);
+    to.axis_x = map.axes[0];
+    to.axis_y = map.axes[1];
+    to.axis_z = map.axes[2];
     return total * 2.0 * kPiExact * kPiExact / (static_cast<double>(map.width) * map.height);
 }
 

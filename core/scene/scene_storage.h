@@ -32,9 +32,11 @@ struct SceneStorage {
     Array<LightPlace> light_places;
     Array<std::uint32_t> light_clusters;
     Array<DeltaLight> delta_lights;
-    Array<Vec3f> map_texels;
+    Array<MapTexel> map_texels;
     Array<float> map_row_cdf;
+    Array<std::int32_t> map_row_index;
     Array<float> map_column_cdf;
+    Array<std::int32_t> map_column_index;
     Array<BvhNode> bvh_nodes;
     Array<SmallLeaf> bvh_leaves;
     Array<BvhTriangle> bvh_triangles;
@@ -54,8 +56,10 @@ struct SceneStorage {
     SceneView view() const {
         FarLights far = far_lights;
         far.map.texels = view_of(map_texels);
-        far.map.row_cdf = view_of(map_row_cdf);
-        far.map.column_cdf = view_of(map_column_cdf);
+        far.map.rows.values = view_of(map_row_cdf);
+        far.map.rows.index = view_of(map_row_index);
+        far.map.columns.values = view_of(map_column_cdf);
+        far.map.columns.index = view_of(map_column_index);
         return {
             .positions = view_of(positions),
             .triangles = view_of(triangles),
@@ -128,7 +132,9 @@ void zip(const SceneStorage<From>& from, SceneStorage<To>& to, Fn&& fn) {
     fn(from.delta_lights, to.delta_lights);
     fn(from.map_texels, to.map_texels);
     fn(from.map_row_cdf, to.map_row_cdf);
+    fn(from.map_row_index, to.map_row_index);
     fn(from.map_column_cdf, to.map_column_cdf);
+    fn(from.map_column_index, to.map_column_index);
     fn(from.bvh_nodes, to.bvh_nodes);
     fn(from.bvh_leaves, to.bvh_leaves);
     fn(from.bvh_triangles, to.bvh_triangles);

@@ -261,6 +261,7 @@ struct Lanes {
         return loaded;
 #endif
     }
+    static PL_INLINE Int load(const std::int32_t* values, const Int& index) { return load_word(values, index); }
     /// Each lane loads a word of 32 bits.
     static PL_INLINE Int load_word(const void* words, const Int& index) {
 #if defined(__AVX512F__)

@@ -57,6 +57,7 @@ struct One {
     static PL_INLINE Uint reversed(Uint bits) { return reversed_bits(bits); }
     static PL_INLINE bool any(Mask mask) { return mask; }
     static PL_INLINE Real load(const float* values, Int index) { return values[index]; }
+    static PL_INLINE Int load(const std::int32_t* values, Int index) { return values[index]; }
     /// Number of the `count` ascending values from values[first] on that are not above x. If `count` is a multiple of 4, so is
     /// `first`, and `values` is aligned to 16 bytes.
     static PL_INLINE Int count_not_above(const float* values, Int first, int count, Real x) {

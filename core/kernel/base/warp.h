@@ -91,22 +91,6 @@ PL_HD inline std::uint32_t find_interval(std::uint32_t count, float u, Cumulativ
     return find_first(count - 1, [&](std::uint32_t index) { return u < cumulative(index); });
 }
 
-/// Number of the `count` ascending values from values[first] on that are not above x. Every search takes the same steps, so that lanes
-/// stay together and nothing is predicted.
-template <class N>
-PL_INLINE typename N::Int search_not_above(const float* values, const typename N::Int& first, std::uint32_t count,
-                                           const typename N::Real& x) {
-    const auto size = static_cast<std::int32_t>(count);
-    typename N::Int found = N::constant(0);
-    for (auto step = static_cast<std::int32_t>(std::bit_floor(count)); step > 0; step /= 2) {
-        const typename N::Int next = found + step;
-        const typename N::Mask fits = next <= size;
-        const typename N::Real value = N::load(values, first + (select(fits, next, N::constant(1)) - 1));
-        found = select(static_cast<typename N::Mask>(fits & (value <= x)), next, found);
-    }
-    return found;
-}
-
 /// Sample of the tent 1 - |x| on [-1, 1] from a uniform number.
 template <class N>
 PL_INLINE typename N::Real sample_tent(typename N::Real u) {

@@ -3,17 +3,23 @@
 
 #include "core/kernel/base/angles.h"
 #include "core/kernel/base/bilinear.h"
-#include "core/kernel/base/span.h"
+#include "core/kernel/base/indexed_cdf.h"
 #include "core/kernel/base/warp.h"
 
 namespace pl {
 
+/// Radiance and probability lie next to each other: samples and directions that are hit need both.
+struct alignas(16) MapTexel {
+    Vec3f radiance;
+    float probability;  ///< of the texel among the samples of the map
+};
+
 /// The first row is up (+y); without a turn the middle column is -z and the columns to its right approach +x: in the world, or in axes of
 /// the map's own, which are orthonormal and may be left-handed.
 struct EnvironmentMap {
-    Span<const Vec3f> texels;      ///< [row][column], radiance, row 0 at the top; empty: no map
-    Span<const float> row_cdf;     ///< [row], marginal cumulative probabilities; multiples of 2^-24, the last one 1
-    Span<const float> column_cdf;  ///< [row][column], conditional cumulative probabilities, as row_cdf in each row
+    Span<const MapTexel> texels;  ///< [row][column], row 0 at the top; empty: no map
+    IndexedCdf rows;              ///< one distribution, over the rows
+    IndexedCdf columns;           ///< one for each row, over its columns
     std::uint32_t width = 0;
     std::uint32_t height = 0;
     float turn = 0.0f;  ///< counter-clockwise about +y, in turns
@@ -73,37 +79,35 @@ PL_INLINE MapTapsOf<N> map_taps(const EnvironmentMap& map, const Real2<N>& point
 }
 PL_HD inline MapTaps map_taps(const EnvironmentMap& map, Vec2f point) { return map_taps(map, unpack(point)); }
 
-/// Incident radiance from the direction of the taps.
+/// Bilinear interpolation of load(index) of texels.
 template <class N>
-PL_INLINE Real3<N> map_radiance(const EnvironmentMap& map, const MapTapsOf<N>& at) {
+PL_INLINE auto at_taps(const EnvironmentMap& map, const MapTapsOf<N>& at, const auto& load) {
     const auto texel = [&](const typename N::Uint& column, const typename N::Uint& row) {
-        return load_vector<N>(map.texels.data, N::to_int(row * map.width + column));
+        return load(N::to_int(row * map.width + column));
     };
     return bilinear(at.x, at.y, texel(at.x.low, at.y.low), texel(at.x.high, at.y.low), texel(at.x.low, at.y.high),
                     texel(at.x.high, at.y.high));
 }
+
+/// Incident radiance from the direction of the taps.
+template <class N>
+PL_INLINE Real3<N> map_radiance(const EnvironmentMap& map, const MapTapsOf<N>& at) {
+    const auto* numbers = static_cast<const float*>(static_cast<const void*>(map.texels.data));
+    return at_taps<N>(map, at, [&](const typename N::Int& i) {
+        return Real3<N>{N::load(numbers, 4 * i), N::load(numbers, 4 * i + 1), N::load(numbers, 4 * i + 2)};
+    });
+}
 PL_HD inline Vec3f map_radiance(const EnvironmentMap& map, Vec3f direction) {
     return pack(map_radiance(map, map_taps(map, map_place(map, unpack(direction)).point)));
-}
-
-/// Probability of entry `i` of the distribution whose cumulative probabilities begin at cdf[first].
-template <class N>
-PL_INLINE typename N::Real cdf_share(const float* cdf, const typename N::Int& first, const typename N::Int& i) {
-    const typename N::Mask is_first = i == 0;
-    const typename N::Real before = N::load(cdf, first + select(is_first, i, i - 1));
-    return N::load(cdf, first + i) - select(is_first, N::constant(0.0f), before);
 }
 
 /// Density of sample_map_point() over the unit square. Bilinear between the centers of texels, like the radiance, so
 /// the two are nearly proportional; exact, because the tents around texels sum to bilinear interpolation.
 template <class N>
 PL_INLINE typename N::Real map_density(const EnvironmentMap& map, const MapTapsOf<N>& at) {
-    const auto texel = [&](const typename N::Uint& column, const typename N::Uint& row) {
-        return cdf_share<N>(map.row_cdf.data, N::constant(0), N::to_int(row)) *
-               cdf_share<N>(map.column_cdf.data, N::to_int(row * map.width), N::to_int(column));
-    };
-    const typename N::Real p = bilinear(at.x, at.y, texel(at.x.low, at.y.low), texel(at.x.high, at.y.low),
-                                        texel(at.x.low, at.y.high), texel(at.x.high, at.y.high));
+    const auto* numbers = static_cast<const float*>(static_cast<const void*>(map.texels.data));
+    const typename N::Real p =
+        at_taps<N>(map, at, [&](const typename N::Int& i) { return N::load(numbers, 4 * i + 3); });
     return p * static_cast<float>(map.width) * static_cast<float>(map.height);
 }
 
@@ -119,29 +123,11 @@ PL_HD inline float map_pdf_sa(const EnvironmentMap& map, Vec3f direction) {
     return map_pdf_sa(map, map_taps(map, place.point), place.sine);
 }
 
-/// The interval of a discrete distribution that contains a uniform number.
-template <class N>
-struct CdfStep {
-    typename N::Int entry;
-    typename N::Real position;  ///< of the number in the interval, in [0, 1]
-};
-/// In the distribution of `count` entries whose cumulative probabilities begin at cdf[first].
-template <class N>
-PL_INLINE CdfStep<N> find_in_cdf(const float* cdf, const typename N::Int& first, std::uint32_t count,
-                                 const typename N::Real& u) {
-    const typename N::Int entry = search_not_above<N>(cdf, first, count - 1, u);
-    const typename N::Mask is_first = entry == 0;
-    const typename N::Real before = N::load(cdf, first + select(is_first, entry, entry - 1));
-    const typename N::Real start = select(is_first, N::constant(0.0f), before);
-    return {entry, (u - start) / (N::load(cdf, first + entry) - start)};
-}
-
 /// Samples a texel by its probability, then a tent around its center that extends into the neighbors; u in [0,1)^2.
 template <class N>
 PL_INLINE Real2<N> sample_map_point(const EnvironmentMap& map, const Real2<N>& u) {
-    const auto columns = static_cast<std::int32_t>(map.width);
-    const CdfStep<N> row = find_in_cdf<N>(map.row_cdf.data, N::constant(0), map.height, u.y);
-    const CdfStep<N> column = find_in_cdf<N>(map.column_cdf.data, row.entry * columns, map.width, u.x);
+    const CdfSampleOf<N> row = sample_cdf<N>(map.rows, N::constant(0), u.y);
+    const CdfSampleOf<N> column = sample_cdf<N>(map.columns, row.entry, u.x);
     const auto width = static_cast<float>(map.width);
     const auto height = static_cast<float>(map.height);
     const typename N::Real x = (N::to_real(column.entry) + 0.5f + sample_tent<N>(column.position)) / width;
