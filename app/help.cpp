@@ -95,7 +95,7 @@ constexpr std::array kCommands{
                  "pathlight bench cornell --effects --seeds 3 --size 256x256 --spp 16 -o kernels"},
                 Inputs::Scenes},
     CommandInfo{Command::Report, "report", "DIR",
-                "Makes one HTML page of a bench folder, and its plots as SVG and PNG.\n"
+                "Makes one HTML page of a bench folder, and its plots as SVG.\n"
                 "The page is self-contained.",
                 {"pathlight report results",
                  "pathlight report results --json",

@@ -1,4 +1,4 @@
-// A plot as data, which the SVG and the PNG writer draw.
+// A plot as data, and as SVG.
 #pragma once
 
 #include <string>
@@ -61,6 +61,5 @@ struct PlotLayout {
 Rgb method_color(const std::string& method);
 
 std::string svg_plot(const Plot& plot);
-ByteImage png_plot(const Plot& plot);
 
 }  // namespace pl

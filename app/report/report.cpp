@@ -1,4 +1,4 @@
-// `pathlight report`: a page of a bench folder, and its plots as SVG and PNG.
+// `pathlight report`: a page of a bench folder, and its plots as SVG.
 #include <fmt/format.h>
 
 #include "app/commands.h"
@@ -12,10 +12,8 @@ int run_report(const CommandLine& line, Console& console) {
     const bench::BenchFolder folder(line.options.inputs.front());
     const bench::BenchResults results = bench::read_results(folder.path() / "results.json");
     const std::vector<NamedPlot> plots = convergence_plots(results);
-    for (const NamedPlot& plot : plots) {
+    for (const NamedPlot& plot : plots)
         write_text_file_atomic(folder.path() / (plot.file + ".svg"), svg_plot(plot.plot));
-        write_png8(folder.path() / (plot.file + ".png"), png_plot(plot.plot));
-    }
     const std::filesystem::path page = folder.path() / "report.html";
     write_text_file_atomic(page, report_page(results, plots, picture_data(folder, results)));
     console.remark(

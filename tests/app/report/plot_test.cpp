@@ -1,6 +1,4 @@
-// Plots of the report, drawn from known numbers, as SVG and as PNG.
-#include <algorithm>
-
+// Plots of the report, drawn from known numbers.
 #include "app/report/plot.h"
 #include "tests/support/catch.hpp"
 
@@ -50,20 +48,10 @@ TEST_CASE("an SVG plot has ticks, units, a legend, one color per method and one 
                WithinRel(layout.x(plot.x_axis(), 1.0) - layout.x(plot.x_axis(), 0.1), 1e-9));
 }
 
-TEST_CASE("a PNG plot shows the same lines") {
-    const ByteImage image = png_plot(two_lines());
-    const Rgb color = method_color("default");
-    int inked = 0;
-    for (std::size_t i = 0; i < image.rgb.size(); i += 3)
-        inked += std::equal(color.begin(), color.end(), image.rgb.begin() + static_cast<std::ptrdiff_t>(i));
-    CHECK(inked > 1000);
-}
-
 TEST_CASE("a plot of nothing is an empty frame") {
     const Plot plot{.title = "none", .x_label = "x", .y_label = "y", .series = {}};
     CHECK_THAT(svg_plot(plot), contains("none"));
     CHECK(svg_plot(plot).find("nan") == std::string::npos);
-    CHECK_FALSE(png_plot(plot).rgb.empty());
 }
 
 }  // namespace pl::test

@@ -33,10 +33,8 @@ TEST_CASE("a report is one page with plots, sentences, tables and pictures") {
     const ProgramResult result = run_program({"report", folder / "b"});
     CAPTURE(result.err);
     REQUIRE(result.code == 0);
-    for (const char* plot : {"cornell-time", "cornell-samples", "door-time", "door-samples"}) {
+    for (const char* plot : {"cornell-time", "cornell-samples", "door-time", "door-samples"})
         CHECK_THAT(read_all(folder / ("b/" + std::string(plot) + ".svg")), contains("<polyline"));
-        CHECK(read_png8(folder / ("b/" + std::string(plot) + ".png")).width > 500);
-    }
 
     const std::string page = read_all(folder / "b/report.html");
     CHECK(page.starts_with("<!DOCTYPE html>"));
