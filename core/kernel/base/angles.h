@@ -33,7 +33,7 @@ PL_INLINE SineCosineOf<N> sine_cosine_of_turns(const typename N::Real& turns) {
 }
 PL_HD inline SineCosine sine_cosine_of_turns(float turns) { return sine_cosine_of_turns<One>(turns); }
 
-/// The same of an angle that is not negative: a rounding down is dearer than a truncation.
+/// sine_cosine_of_turns() of an angle that is not negative, by a truncation, which is faster than rounding down.
 template <class N>
 PL_INLINE SineCosineOf<N> sine_cosine_of_positive_turns(const typename N::Real& turns) {
     return sine_cosine_of_quarters<N>(4.0f * turns, N::to_real(N::truncate(4.0f * turns + 0.5f)));

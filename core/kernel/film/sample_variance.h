@@ -27,11 +27,11 @@ struct VarianceSums {
         return *this;
     }
 
-    /// Over the measured samples; 0 without any.
+    /// The mean variance of a measured sample; 0 if none was measured.
     double mean() const { return mean_of(sum); }
     double relative_mean() const { return mean_of(relative); }
 
-    /// `variance`: of each channel; `mean`: its square is that which the relative one is over.
+    /// Adds the variance of one sample, by channels. The relative sum divides it by mean^2 + kLeastSquare.
     PL_HD void add(Vec3f variance, Vec3f mean) {
         const Vec3f over = variance / (mean * mean + Vec3f{kLeastSquare});
         sum += steps_of((variance.x + variance.y + variance.z) * kThird);

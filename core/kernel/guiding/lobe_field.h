@@ -107,7 +107,8 @@ private:
     }
     /// Without a distance, or from far away, the direction is the same at the site.
     PL_HD SiteLight light_at_site(const Entry& entry, float distance) const {
-        constexpr float kNearest = 0.1f;  // of the site, in distances: the direction from there is noise
+        // The nearest light, as a share of its distance, whose direction from the site still means something.
+        constexpr float kNearest = 0.1f;
         const bool is_near = distance > 0.0f && distance < kInfinity && extent > 0.0f;
         const float inverse = is_near ? min_of(extent / distance, kMostInverseDistance) : 0.0f;
         const Vec3f towards = entry.wi + entry.offset * inverse;

@@ -41,7 +41,7 @@ public:
     }
 
 private:
-    /// Of units by vertices of this lane, whose units lie kUnitLanes apart.
+    /// The weighted sums of one lane: its units, which lie kUnitLanes apart, by its vertices.
     template <std::uint32_t kUnits>
     struct Sums {
         static constexpr std::uint32_t kLaneUnits = (kUnits + kUnitLanes - 1) / kUnitLanes;

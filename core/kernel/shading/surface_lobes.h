@@ -27,7 +27,7 @@ struct SurfaceLobes {
     PL_HD Vec3f edge_loss() const { return Vec3f{1.0f} - transmission; }
 };
 
-/// Of a material: facets that are wider along one direction than across it, see anisotropy.h. As it is, they are not.
+/// The anisotropy of a rough metal: microfacets that are wider along one direction than across it, see anisotropy.h. Isotropic by default.
 struct MaterialAnisotropy {
     /// Width along that direction over the geometric mean of both widths, whose root the roughness is.
     float stretch = 1.0f;
