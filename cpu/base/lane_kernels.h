@@ -108,7 +108,7 @@ struct LaneKernels {
     /// The update of one volume's table: update_volume() without the BSDF fraction and the reach. Returns false, and changes
     /// nothing, if the vectors do not fit the table's side.
     bool (*update_table)(const TableUpdateView& field, std::uint32_t volume);
-    // Of neural fields:
+    // The next three serve the update of neural fields.
     void (*multiply)(const MatrixProduct& product);
     void (*descend)(const DescentStep& step);
     /// Fills `shares`. Returns the expected logarithm of the density of all components together.

@@ -6,9 +6,9 @@
 
 namespace pl {
 
-/// Those that this build has kernels for, narrowest vectors first.
+/// Instruction sets that this build has kernels for, narrowest vectors first.
 std::vector<std::string_view> compiled_lane_names();
-/// The one whose kernels run on this machine.
+/// The instruction set whose kernels run on this machine.
 std::string_view used_lane_name();
 
 }  // namespace pl

@@ -24,7 +24,7 @@ public:
         const std::uint32_t group = first / kGroupSize;
         kernels_.find_points(rows, rays.ray_groups() + group, rays.hit_groups() + group, points_, groups_);
     }
-    /// Those of the ray `first` of find() and of the following ones; undefined for rays that miss.
+    /// The points of ray `first` of find() and of those behind it; undefined for rays that miss.
     PointGroup* points() { return points_; }
     const PointGroup* points() const { return points_; }
     /// Number of groups with points.
@@ -39,7 +39,7 @@ public:
         else
             return flat_point(ray, hit.primitive);
     }
-    /// The same with the geometric normal as shading normal.
+    /// The surface point with the geometric normal as shading normal.
     SurfacePoint flat_point(std::uint32_t ray, std::uint32_t primitive) const {
         const PointGroup& group = points_[(ray - first_) / kGroupSize];
         const std::uint32_t lane = (ray - first_) % kGroupSize;

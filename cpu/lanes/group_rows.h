@@ -83,7 +83,7 @@ private:
     WordBlock blocks_[kBlocks > 0 ? kBlocks : 1];
 };
 
-/// The same as the functions of a Vec3f.
+/// The functions of a Vec3f, in lanes.
 PL_INLINE LaneFloat max_component(const Real3<Lanes>& v) { return larger(larger(v.z, v.y), v.x); }
 PL_INLINE LaneInt is_black(const Real3<Lanes>& v) { return (v.x == 0.0f) & (v.y == 0.0f) & (v.z == 0.0f); }
 

@@ -38,7 +38,7 @@ template <class Real>
     return ~(any_negative & any_positive) & (e.u + e.v + e.w != 0.0f);
 }
 
-/// The same for edge functions in registers, which the rare call alone puts into memory.
+/// repeat_exactly() for edge functions in registers: only the rare call puts them into memory.
 template <class Real>
 PL_INLINE MaskOf<Real> repeat_exactly_in(const RayCorner<Real>& a, const RayCorner<Real>& b, const RayCorner<Real>& c,
                                          std::uint32_t lanes, EdgeFunctions<Real>& e) {

@@ -67,7 +67,7 @@ private:
     const float* triangles_[kTestWidth];
 };
 
-/// The same from a block.
+/// The triangles of a leaf from index `first` on, read from a LeafBlock.
 class BlockTriangles {
 public:
     PL_INLINE BlockTriangles(const LeafBlock* blocks, WideReference leaf, std::uint32_t first)

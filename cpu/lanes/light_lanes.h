@@ -30,7 +30,7 @@ public:
     }
 
 private:
-    /// As find_interval(): the number of lights but the last whose cumulative probability is not above u.
+    /// find_interval() in lanes: counts the lights but the last whose cumulative probability is not above u.
     PL_INLINE LaneInt choose_by_power() const {
         const LaneFloat u = row(receivers_.light.rows[0]);
         LaneInt light{};

@@ -62,7 +62,7 @@ public:
 
     PL_INLINE void find_nearest(PointGroup& points) const {
         const Real3<Lanes> position = vector(points.position);
-        // As NearestWord: the squared distance decides, then the number; distances that are not finite never win.
+        // The order of NearestWord: the squared distance decides, then the index; distances that are not finite never win.
         LaneUint distance = broadcast(std::bit_cast<std::uint32_t>(kInfinity) - 1u);
         LaneUint volume = broadcast(~0u);
         LaneInt nearest = Lanes::constant(static_cast<std::int32_t>(FoundVolume::kUnknown));

@@ -23,7 +23,7 @@ struct alignas(64) PreparedGroup {
     std::uint32_t can_hit;                 ///< bit i: can_hit() of ray i
 };
 
-/// As in make_box_ray(): magnitudes that bound the roundoff of a ray's tests.
+/// Magnitudes that bound the roundoff of a ray's tests, see make_box_ray().
 struct RayBounds {
     LaneFloat reach{}, distance{}, longest{}, sum{};
 

@@ -49,7 +49,7 @@ private:
     PL_INLINE std::uint32_t bits(const LaneInt& mask) const { return mask_bits(mask) << first(); }
     PL_INLINE Real3<Lanes> albedo() const { return material_.vector(offsetof(Material, albedo)); }
 
-    /// As with_shading_normal().
+    /// The shading normal of with_shading_normal(), in lanes.
     PL_INLINE Real3<Lanes> smooth_normal(const Real3<Lanes>& geometric_normal) const {
         const LaneInt hit = integers(hits_.primitive);
         const LaneInt primitive = select(hit == static_cast<std::int32_t>(kNoPrimitive), LaneInt{}, hit);

@@ -40,7 +40,7 @@ public:
         return {mask_bits(served) << first(), mask_bits(served & is_unknown) << first()};
     }
 
-    /// As Guided::estimate_contribution(). `reached`: vertices from which paths may go on.
+    /// Guided::estimate_contribution() in lanes. `reached`: vertices from which paths may go on.
     PL_INLINE void estimate(std::uint32_t reached, float* estimates) const {
         const PathGroup& paths = block_.paths[group_];
         const Real3<Lanes> albedo = vector(vertices_.albedo);

@@ -104,7 +104,7 @@ public:
         locate(wi, sampled);
     }
 
-    /// The same for the directions towards lights.
+    /// Finds the cells of the directions towards lights.
     PL_INLINE void locate_light(const LightSampleGroup& lights, SampledGroup& sampled) const {
         const Real3<Lanes> wi = vector(lights.wi);
         store(wi, sampled.direction);

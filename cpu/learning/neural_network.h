@@ -77,7 +77,8 @@ struct DescentSettings {
     double rate, decay;
 };
 
-/// The same bits for any number of threads and any instruction set: blocks of volumes are summed in their order.
+/// Gradient descent on the weights. Blocks of volumes are summed in their order: any number of threads and any instruction set give the
+/// same bits.
 class NetworkDescent {
 public:
     /// The loss of the volumes of a block, each by 1 / batch, and its slopes by the outputs of the network, which are in the block and

@@ -62,7 +62,7 @@ using PassKernels = KernelRow<PassCounters (*)(const Pass&)>;
 using PictureKernel = PassCounters (*)(const PicturePass&);
 /// The picture kernels of a set of effects: [entry of MethodList]. Null where the set is not in the entry's range.
 using PictureKernels = std::array<PictureKernel, MethodList::kCount>;
-/// Those of kCompiledSets[kSet].
+/// The picture kernels of kCompiledSets[kSet].
 template <int kSet>
 const PictureKernels& picture_kernels();
 extern const PassKernels<ProbePass> kProbeKernels;

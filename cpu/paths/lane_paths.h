@@ -211,7 +211,7 @@ private:
                 paths_.guided.record_light(light, false);
         });
     }
-    /// Those of the paths in `lit` that see their lights. `ray`: number of their first shadow ray; leaves as that of the next block.
+    /// Returns the paths in `lit` that see their lights. `ray`: index of their first shadow ray; leaves as the index of the next block's.
     std::uint64_t visible_of([[maybe_unused]] std::uint32_t first, std::uint64_t lit, std::uint32_t& ray) {
         std::uint64_t visible = 0;
         for_bits(lit, [&](std::uint32_t k) {

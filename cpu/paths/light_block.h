@@ -67,7 +67,7 @@ public:
     }
 
     const LightSampleGroup* groups() const { return samples_; }
-    /// Of a weighed sample: whether it contributes if nothing occludes the light.
+    /// Whether a weighed sample contributes if nothing occludes the light.
     bool is_wanted(std::uint32_t i) const { return group(i).pdf_sa[i % kGroupSize] > 0.0f; }
     Vec3f contribution(std::uint32_t i) const { return group(i).contribution.get(i % kGroupSize); }
     /// `chain`: ReceivedWeights::chain.
@@ -269,7 +269,7 @@ public:
         for (std::uint32_t i = 0; i < count_; ++i)
             pdf_area_[paths_[i]] = hits_[i / kGroupSize].pdf_area[i % kGroupSize];
     }
-    /// Of a path that has hit a triangle after a vertex that sampled lights.
+    /// The density for a path that has hit a triangle after a vertex that sampled lights.
     float pdf_area(std::uint32_t path, std::uint32_t primitive) const {
         return lights_->is_light(primitive) ? pdf_area_[path] : 0.0f;
     }

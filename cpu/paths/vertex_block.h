@@ -134,7 +134,7 @@ public:
     void for_lambert(const auto& visit) const { for_bits(first_bits(count_) & ~layered_.bits, visit); }
     /// Calls visit(i) for every vertex whose path continues.
     void for_continuing(const auto& visit) const { for_bits(continuing_, visit); }
-    /// The same for Lambert reflectors alone.
+    /// Calls visit(i) for every vertex at a Lambert reflector whose path continues.
     void for_continuing_lambert(const auto& visit) const { for_bits(continuing_ & ~layered_.bits, visit); }
 
 private:

@@ -13,8 +13,8 @@ namespace pl {
 /// [Ylitie, Karras, Laine 2017, "Efficient Incoherent Ray Traversal on GPUs Through Compressed Wide BVHs"]
 std::vector<WideNode> make_wide_nodes(const BvhView& bvh);
 
-/// The same from any number of hierarchies in one array, the roots of all first, in the order of `roots`: nodes of `narrow`, whose
-/// children have higher numbers. `most`: entries of a leaf, at most kWideChildren.
+/// The nodes of several hierarchies in one array, their roots first, in the order of `roots`. `roots`: nodes of `narrow`, whose children
+/// have higher indices. `most`: entries of a leaf, at most kWideChildren.
 std::vector<WideNode> make_wide_nodes(Span<const BvhNode> narrow, std::span<const std::uint32_t> roots,
                                       std::uint32_t most = kWideChildren);
 

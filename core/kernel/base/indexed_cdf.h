@@ -36,7 +36,7 @@ struct CdfSampleOf {
     typename N::Int entry;
     typename N::Real position;  ///< of the number in the interval, in [0, 1]
 };
-/// By u in [0, 1).
+/// Samples the distribution with index `distribution`; u in [0, 1).
 template <class N>
 PL_INLINE CdfSampleOf<N> sample_cdf(const IndexedCdf& cdf, const typename N::Int& distribution,
                                     const typename N::Real& u) {

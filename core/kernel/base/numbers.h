@@ -140,7 +140,7 @@ PL_INLINE Real3<N> load_vector(const Vec3f* vectors, const typename N::Int& inde
     const typename N::Int first = 3 * index;
     return {N::load(numbers, first), N::load(numbers, first + 1), N::load(numbers, first + 2)};
 }
-/// The same vector in all lanes.
+/// A vector with the value of `v` in every lane.
 template <class N>
 PL_INLINE Real3<N> constant_vector(Vec3f v) {
     return {N::constant(v.x), N::constant(v.y), N::constant(v.z)};
@@ -170,7 +170,7 @@ PL_INLINE typename N::Real max_real(const typename N::Real& x, float least) {
     return select(static_cast<typename N::Mask>(x < least), N::constant(least), x);
 }
 
-/// The same as the function of a Vec3f.
+/// rms() of a Vec3f, for vectors: the same bits.
 template <class N>
 PL_INLINE typename N::Real rms(const Real3<N>& rgb) {
     const auto of_last = select(static_cast<typename N::Mask>(rgb.y < rgb.z), rgb.z, rgb.y);

@@ -75,7 +75,7 @@ PL_HD inline FloatPair in_order(float a, float b) {
 /// Threads of a warp that do something together; on the host, this one. Only for the order of work, which changes no result.
 class LaneGroup {
 public:
-    /// Those that call this at the same time.
+    /// The threads that call this at the same time.
     static PL_HD LaneGroup active() {
 #if defined(__CUDA_ARCH__)
         return LaneGroup(__activemask());

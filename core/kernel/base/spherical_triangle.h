@@ -18,7 +18,7 @@ struct SphericalTriangleOf {
         return 4.0f * kPi * turns_of<N>(sine, cosine);
     }
 
-    /// The same triangle with its corners turned so that ac is the longest side.
+    /// This triangle with its corners renamed so that ac is the longest side.
     PL_INLINE SphericalTriangleOf with_longest_side_ac() const {
         const typename N::Real ab = dot(a, b);
         const typename N::Real bc = dot(b, c);

@@ -36,7 +36,7 @@ struct DirectionTables {
     PL_INLINE Real cell_probability(Int column, Int row) const {
         return share_of(row_cdf, volume * cells.side, row) * share_of(column_cdf, first_of_row(row), column);
     }
-    /// The same for the four cells whose centers enclose a point, with fewer loads: neighboring cells share a bound.
+    /// cell_probability() of the four cells whose centers enclose a point. Neighboring cells share a bound, which is loaded once.
     struct FourCells {
         Real low_first, low_second, high_first, high_second;
     };

@@ -37,7 +37,7 @@ struct LobesOf {
     float kappa[kCapacity];
     float weight[kCapacity];
 
-    /// Those to be computed: whole blocks.
+    /// Number of lobes that loops compute: whole blocks.
     PL_INLINE std::uint32_t count() const {
         if constexpr (kLeast == kCapacity) return kCapacity;
         return max_of(kLeast, (used + (kLobeBlock - 1)) / kLobeBlock * kLobeBlock);

@@ -58,7 +58,7 @@ enum NetworkCount : std::uint32_t {
 /// Columns of matrices are multiples of this.
 inline constexpr std::uint32_t kColumnBlock = 32;
 static_assert(kHiddenUnits % kColumnBlock == 0);
-/// Of the last layer: the outputs, and unused ones.
+/// Columns of the last layer: the outputs, and unused ones up to a whole block.
 inline constexpr std::uint32_t kOutputColumns = (kVertexOutputs + kColumnBlock - 1) / kColumnBlock * kColumnBlock;
 
 /// Places of the weights: grids [level][z][y][x][feature], then the layers, [input][unit].

@@ -38,7 +38,7 @@ struct QuadSlot {
     std::uint32_t slot = 0;
     std::uint32_t depth = 0;
 
-    /// Of the slot's quadrant, in units of the square.
+    /// Side of the slot's quadrant; the square has side 1.
     PL_HD float side() const { return 1.0f / static_cast<float>(2u << depth); }
 };
 

@@ -84,7 +84,7 @@ struct TableField : TableView {
     PL_HD void record_light(const LightSample<TableField>& light) const { record_at_volume(*this, light); }
     PL_HD bool is_clamped(float target) const { return pl::is_clamped(target, radiance_unit); }
 
-    /// Of a field with volumes.
+    /// The field must have volumes.
     PL_HD TableSampler sampler() const {
         return {.cells = cells, .row_cdf = row_cdf.data, .column_cdf = column_cdf.data};
     }

@@ -37,7 +37,7 @@ struct TableVolumeSummary {
             unvisited += field.visits[cell] == 0 ? 1.0f : 0.0f;
         return unvisited / static_cast<float>(cells);
     }
-    /// Of the sampled cell: 0 for one certain cell, log2(cells) for a uniform table.
+    /// Entropy of the choice of a cell in bits: 0 for one certain cell, log2(cells) for a uniform table.
     PL_HD float entropy(std::uint32_t volume) const {
         const DirectionTable table(field, static_cast<std::int32_t>(volume));
         float bits = 0.0f;

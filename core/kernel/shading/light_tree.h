@@ -60,7 +60,7 @@ struct LightBounds {
     Real3<N> axis;
     typename N::Real cos_spread, power;
 };
-/// By value: a device then reads a node by 16 bytes.
+/// Takes the node by value: a device then reads it by 16 bytes.
 PL_HD inline LightBounds<One> bounds_of(LightNode node) {
     return {unpack(node.center), node.radius, unpack(node.axis), node.cos_spread, node.power};
 }

@@ -258,7 +258,7 @@ PL_HOST_APART PL_HD inline DirectLight sample_direct_light(const SceneView& scen
                                                            const B& bsdf, Vec4f u, LearnedLights learned = {}) {
     if constexpr (F.has(Feature::DeltaLights)) {
         if (scene.delta_probability > 0.0f) {
-            // By z, which is spread evenly over the passes, as w is not: no other estimator makes up for missing samples.
+            // u.z chooses: unlike u.w it is spread evenly over the passes, and no other estimator makes up for missing samples.
             const float others = 1.0f - scene.delta_probability;
             WayByNumber way{u.z};
             if (way.takes_second(others)) return sample_delta_light(scene, surface, bsdf, {u.x, u.y});

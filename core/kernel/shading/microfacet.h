@@ -7,7 +7,7 @@
 
 namespace pl {
 
-/// The same width in all directions.
+/// Microfacets whose width is the same in all directions.
 struct IsotropicWidth {
     float alpha;  ///< roughness squared, in (0, 1]
 
