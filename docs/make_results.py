@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Writes results.md of the folder of a bench, with its plots of error against time.
 
-Usage: make_results.py BENCH   (after `pathlight reference SCENE -o references --size 128x128 --time-limit 10` for every scene,
-`pathlight bench SCENE... -o BENCH` with the options that results.md tells, and `pathlight report BENCH`)
+Usage: make_results.py BENCH   (after `pathlight bench SCENE... -o BENCH` with the options that results.md names, which makes the references,
+and `pathlight report BENCH`)
 """
 import json
 import shutil
@@ -29,27 +29,33 @@ def head(results):
     commits = ", ".join(results["commits"])
     return f"""# Results
 
-Error against time of every method on every shipped scene, cold: each run starts with nothing learned, and placing, precomputing and
-learning are charged. Made by [make_results.py](make_results.py) of one bench.
+This page has error against time of every method on every shipped scene. Each run starts with nothing learned, and placing, precomputing and
+learning are charged. [make_results.py](make_results.py) makes the page of one bench.
 
 * Machine: {machine}. {results['date']}, version {results['version']}, commit {commits}.
 * Command: `{results['command']}`
 * References: {references(results)}.
-* relMSE is {results['definitions']['metrics']['relmse']} with epsilon {results['definitions']['metrics']['epsilon']};
-  against a reference in two halves, so that the reference's own noise drops out. Intervals: {results['definitions']['intervals']}.
-* Pictures are small and runs short, so that the bench fits into minutes; an update of the tables costs the same at any size, and weighs less in
-  larger pictures. `precomputed` ends after its first sample where precomputing takes longer than the limit.
+* relMSE is {results['definitions']['metrics']['relmse']} with epsilon {results['definitions']['metrics']['epsilon']},
+  taken against a reference in two halves, so that the reference's own noise drops out. Intervals: {results['definitions']['intervals']}{few_runs(results)}.
+* Pictures are small and runs short, so that the bench fits into minutes; the cost of an update of the tables does not depend on the size, and
+  weighs less in larger pictures. `precomputed` ends after its first sample where precomputing takes longer than the limit.
 {light_samples(results)}
 
 """
 
 
+def few_runs(results):
+    """What intervals of fewer runs than kFewestRuns (core/measure/statistics.h) are worth."""
+    fewest = min(s["runs"] for s in results["summary"])
+    return "" if fewest >= 5 else f".\n  They are of {fewest} runs and thus rough: `bench` itself prints none below 5"
+
+
 def light_samples(results):
     """A line that says whether lights were sampled, which decides much of what learning can gain."""
     if "--nee off" not in results["command"]:
-        return "* With light samples (next-event estimation), the program's default."
-    return ("* Without light samples (`--nee off`), where learning gains most. With them, the program's default, it gains less:\n"
-            "  [learning.md](learning.md#with-light-samples).")
+        return "* All runs have light samples (next-event estimation), the program's default."
+    return ("* No run has light samples (`--nee off`): learning gains most without them, and [less with them](learning.md#with-light-samples),\n"
+            "  the program's default.")
 
 
 def references(results):
@@ -72,7 +78,7 @@ def verdict(comparison):
 def gains(results):
     base = results["plan"]["methods"][0]
     others = results["plan"]["methods"][1:]
-    rows = [f"## To the same error\nHow many times less time than `{base}` a method needs to the same error; below 1 it needs more.\n",
+    rows = [f"## To the same error\nThe table says how many times less time than `{base}` a method needs to equal error; below 1 it needs more time.\n",
             "| scene | back end | " + " | ".join(f"`{m}`" for m in others) + " |", "| --- " * (len(others) + 2) + "|"]
     cells = {(c["scene"], c["backend"], c["method"]): verdict(c) for c in results["comparisons"]}
     for scene, backend in sorted({(s, b) for s, b, _ in cells}):
