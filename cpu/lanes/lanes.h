@@ -280,11 +280,12 @@ struct Lanes {
         return loaded;
 #endif
     }
-    /// Prefetches the values that load() with the same arguments reads.
-    static PL_INLINE void prefetch(const float* values, const Int& index) {
+    /// Prefetches the words that load() or load_word() with the same arguments reads.
+    static PL_INLINE void prefetch(const void* words, const Int& index) {
         std::int32_t indices[kLaneWidth];
         store_lanes(index, indices);
-        for (std::uint32_t lane = 0; lane < kLaneWidth; ++lane) __builtin_prefetch(values + indices[lane]);
+        for (std::uint32_t lane = 0; lane < kLaneWidth; ++lane)
+            __builtin_prefetch(static_cast<const char*>(words) + std::ptrdiff_t{4} * indices[lane]);
     }
     /// Each lane searches its own row of values: lane by lane, comparing one vector of values at a time.
     static PL_INLINE Int count_not_above(const float* values, const Int& first, int count, const Real& x) {

@@ -131,9 +131,21 @@ void sample_chosen_lights(const LightRows& lights, const VertexGroup* vertices, 
 
 void sample_far_lights(const FarRows& lights, const VertexGroup* vertices, FarSampleGroup* far,
                        LightSampleGroup* samples, std::uint32_t groups) {
-    for (std::uint32_t group = 0; group < groups; ++group)
-        for (std::uint32_t first = 0; first < kGroupSize; first += kLaneWidth)
-            FarLightLanes(lights, vertices[group], first).sample(far[group], samples[group]);
+    SampledTexelOf<Lanes> texels[kBlockGroups][kGroupSize / kLaneWidth];
+    const auto for_lanes = [&](const auto& step) {
+        for (std::uint32_t group = 0; group < groups; ++group)
+            for (std::uint32_t i = 0; i < kGroupSize / kLaneWidth; ++i)
+                step(FarLightLanes(lights, vertices[group], i * kLaneWidth), texels[group][i], group);
+    };
+    using Texel = SampledTexelOf<Lanes>;
+    if (!lights.lights->map.empty()) {
+        for_lanes([](const FarLightLanes& lanes, Texel& texel, std::uint32_t) { lanes.choose_row(texel); });
+        for_lanes([](const FarLightLanes& lanes, Texel& texel, std::uint32_t) { lanes.find_columns(texel); });
+        for_lanes([](const FarLightLanes& lanes, Texel& texel, std::uint32_t) { lanes.choose_column(texel); });
+    }
+    for_lanes([&](const FarLightLanes& lanes, Texel& texel, std::uint32_t group) {
+        lanes.sample(texel, far[group], samples[group]);
+    });
 }
 
 void weigh_lights(const VertexGroup* vertices, const DirectionGroup* directions, LightSampleGroup* samples,

@@ -100,13 +100,36 @@ public:
     PL_INLINE FarLightLanes(const FarRows& lights, const VertexGroup& receivers, std::uint32_t first)
         : GroupRows(first), lights_(lights), receivers_(receivers) {}
 
-    /// Keeps the samples of all lanes in `far`, and makes light samples in those that choose far lights.
-    PL_INLINE void sample(FarSampleGroup& far, LightSampleGroup& samples) const {
-        const NumberGroup& numbers = receivers_.light;
-        const LaneInt chosen = row(numbers.rows[3]) < lights_.probability;
+    /// sample_texel() in three steps, each of which asks for the memory of the next one: the searches of many vectors wait together.
+    PL_INLINE void choose_row(SampledTexelOf<Lanes>& texel) const {
+        if (!Lanes::any(chosen())) return;
+        texel.row = sample_cdf<Lanes>(map().rows, LaneInt{}, u().y);
+        Lanes::prefetch(map().columns.index.data, bucket_of<Lanes>(map().columns, texel.row.entry, u().x));
+    }
+    PL_INLINE void find_columns(const SampledTexelOf<Lanes>& texel) const {
+        if (!Lanes::any(chosen())) return;
+        const IndexedCdf& columns = map().columns;
+        const LaneInt begin = Lanes::load(columns.index.data, bucket_of<Lanes>(columns, texel.row.entry, u().x));
+        Lanes::prefetch(columns.values.data, texel.row.entry * static_cast<std::int32_t>(columns.count) + begin);
+    }
+    PL_INLINE void choose_column(SampledTexelOf<Lanes>& texel) const {
+        if (!Lanes::any(chosen())) return;
+        texel.column = sample_cdf<Lanes>(map().columns, texel.row.entry, u().x);
+        const LaneInt next =
+            texel.row.entry + select(texel.row.position < 0.5f, Lanes::constant(-1), Lanes::constant(1));
+        const LaneInt other = clamp_int<Lanes>(next, 0, static_cast<std::int32_t>(map().height) - 1);
+        for (const LaneInt& row : {texel.row.entry, other})
+            Lanes::prefetch(map().texels.data,
+                            4 * (row * static_cast<std::int32_t>(map().width) + texel.column.entry));
+    }
+
+    /// Keeps the samples of all lanes in `far`, and makes light samples in those that choose far lights. `texel`: chosen before, if there
+    /// is a map.
+    PL_INLINE void sample(const SampledTexelOf<Lanes>& texel, FarSampleGroup& far, LightSampleGroup& samples) const {
+        const LaneInt chosen = this->chosen();
         if (!Lanes::any(chosen)) return;
-        const FarSampleOf<Lanes> sample = sample_far<Lanes>(
-            *lights_.lights, Real2<Lanes>{row(numbers.rows[0]), row(numbers.rows[1])}, row(numbers.rows[2]));
+        const FarSampleOf<Lanes> sample =
+            sample_far<Lanes>(*lights_.lights, u(), row(receivers_.light.rows[2]), [&] { return texel; });
         store(sample.wi, far.wi);
         store(sample.radiance, far.radiance);
         store(sample.pdf_sa, far.pdf_sa);
@@ -114,6 +137,10 @@ public:
     }
 
 private:
+    PL_INLINE const EnvironmentMap& map() const { return lights_.lights->map; }
+    PL_INLINE LaneInt chosen() const { return row(receivers_.light.rows[3]) < lights_.probability; }
+    PL_INLINE Real2<Lanes> u() const { return {row(receivers_.light.rows[0]), row(receivers_.light.rows[1])}; }
+
     PL_INLINE void reflect(const FarSampleOf<Lanes>& sample, const LaneInt& chosen, LightSampleGroup& samples) const {
         const Real3<Lanes> normal = vector(receivers_.geometric_normal);
         const LaneFloat cos_i = reflection_cosine(normal, vector(receivers_.shading_normal), sample.wi);

@@ -30,6 +30,14 @@ PL_INLINE typename N::Int search_not_above(const float* values, const typename N
     return low;
 }
 
+/// Place in IndexedCdf::index of the bucket of u in [0, 1).
+template <class N>
+PL_INLINE typename N::Int bucket_of(const IndexedCdf& cdf, const typename N::Int& distribution,
+                                    const typename N::Real& u) {
+    return distribution * static_cast<std::int32_t>(cdf.buckets + 1) +
+           N::truncate(u * static_cast<float>(cdf.buckets));
+}
+
 /// The entry of a discrete distribution whose interval of cumulative probabilities contains a uniform number.
 template <class N>
 struct CdfSampleOf {
@@ -41,8 +49,7 @@ template <class N>
 PL_INLINE CdfSampleOf<N> sample_cdf(const IndexedCdf& cdf, const typename N::Int& distribution,
                                     const typename N::Real& u) {
     const typename N::Int first = distribution * static_cast<std::int32_t>(cdf.count);
-    const typename N::Int bucket =
-        distribution * static_cast<std::int32_t>(cdf.buckets + 1) + N::truncate(u * static_cast<float>(cdf.buckets));
+    const typename N::Int bucket = bucket_of<N>(cdf, distribution, u);
     const typename N::Int entry = search_not_above<N>(cdf.values.data, first, N::load(cdf.index.data, bucket),
                                                       N::load(cdf.index.data, bucket + 1), u);
     const typename N::Mask is_first = entry == 0;

@@ -123,11 +123,22 @@ PL_HD inline float map_pdf_sa(const EnvironmentMap& map, Vec3f direction) {
     return map_pdf_sa(map, map_taps(map, place.point), place.sine);
 }
 
-/// Samples a texel by its probability, then a tent around its center that extends into the neighbors; u in [0,1)^2.
+/// A texel, chosen by its probability.
 template <class N>
-PL_INLINE Real2<N> sample_map_point(const EnvironmentMap& map, const Real2<N>& u) {
+struct SampledTexelOf {
+    CdfSampleOf<N> row, column;
+};
+/// u in [0,1)^2.
+template <class N>
+PL_INLINE SampledTexelOf<N> sample_texel(const EnvironmentMap& map, const Real2<N>& u) {
     const CdfSampleOf<N> row = sample_cdf<N>(map.rows, N::constant(0), u.y);
-    const CdfSampleOf<N> column = sample_cdf<N>(map.columns, row.entry, u.x);
+    return {row, sample_cdf<N>(map.columns, row.entry, u.x)};
+}
+
+/// Samples the tent around the center of a sampled texel, which extends into the neighbors.
+template <class N>
+PL_INLINE Real2<N> sample_map_point(const EnvironmentMap& map, const SampledTexelOf<N>& texel) {
+    const auto& [row, column] = texel;
     const auto width = static_cast<float>(map.width);
     const auto height = static_cast<float>(map.height);
     const typename N::Real x = (N::to_real(column.entry) + 0.5f + sample_tent<N>(column.position)) / width;
@@ -135,7 +146,7 @@ PL_INLINE Real2<N> sample_map_point(const EnvironmentMap& map, const Real2<N>& u
     return {x - N::floor(x), reflect_into<N>(y, height) / height};
 }
 PL_HD inline Vec2f sample_map_point(const EnvironmentMap& map, Vec2f u) {
-    return pack(sample_map_point(map, unpack(u)));
+    return pack(sample_map_point(map, sample_texel(map, unpack(u))));
 }
 
 /// A direction on the map with its place.
@@ -145,10 +156,10 @@ struct MapDirection {
     MapPlaceOf<N> place;
 };
 
-/// Samples a direction of the map, which must not be empty, with density map_pdf_sa(); u in [0,1)^2.
+/// Samples a direction towards a sampled texel of the map, with density map_pdf_sa().
 template <class N>
-PL_INLINE MapDirection<N> sample_map_direction(const EnvironmentMap& map, const Real2<N>& u) {
-    const Real2<N> point = sample_map_point(map, u);
+PL_INLINE MapDirection<N> sample_map_direction(const EnvironmentMap& map, const SampledTexelOf<N>& texel) {
+    const Real2<N> point = sample_map_point(map, texel);
     const SineCosineOf<N> longitude = sine_cosine_of_turns<N>(point.x - 0.5f - map.turn);
     const SineCosineOf<N> colatitude = sine_cosine_of_turns<N>(0.5f * point.y);
     const typename N::Real sine = max_real<N>(colatitude.sine, 0.0f);

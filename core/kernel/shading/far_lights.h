@@ -100,13 +100,15 @@ struct FarSample {
     float pdf_sa = 0.0f;
 };
 
-/// Samples the map or the sun, by `choice` in [0, 1); u in [0,1)^2. The lights must not be empty.
+/// Samples the map or the sun, by `choice` in [0, 1); u in [0,1)^2. The lights must not be empty. texel(): sample_texel() of the map by u,
+/// called if the map is sampled.
 template <class N>
-PL_INLINE FarSampleOf<N> sample_far(const FarLights& lights, const Real2<N>& u, const typename N::Real& choice) {
+PL_INLINE FarSampleOf<N> sample_far(const FarLights& lights, const Real2<N>& u, const typename N::Real& choice,
+                                    const auto& texel) {
     const typename N::Mask of_map = choice < lights.map_probability;
     const typename N::Mask of_sun = !(choice < lights.map_probability);
     MapDirection<N> sampled{};
-    if (N::any(of_map)) sampled = sample_map_direction(lights.map, u);
+    if (N::any(of_map)) sampled = sample_map_direction<N>(lights.map, texel());
     if (N::any(of_sun)) {
         // Rounding may put a direction just outside of the rim; radiance and density then both exclude the sun.
         const Real3<N> wi = sample_sun(lights.sun, u);
@@ -121,7 +123,8 @@ PL_INLINE FarSampleOf<N> sample_far(const FarLights& lights, const Real2<N>& u, 
     return {sampled.wi, far.radiance(), far.pdf_sa()};
 }
 PL_HOST_APART PL_HD inline FarSample sample_far(const FarLights& lights, Vec2f u, float choice) {
-    const FarSampleOf<One> sample = sample_far<One>(lights, unpack(u), choice);
+    const FarSampleOf<One> sample =
+        sample_far<One>(lights, unpack(u), choice, [&] { return sample_texel(lights.map, unpack(u)); });
     return {pack(sample.wi), pack(sample.radiance), sample.pdf_sa};
 }
 
