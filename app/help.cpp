@@ -147,8 +147,10 @@ std::string in_columns(const std::string& head, std::string_view text) {
         column = kHelpColumn;
     }
     while (!text.empty()) {
-        const std::string_view word = text.substr(0, text.find(' '));
-        text.remove_prefix(std::min(text.size(), word.size() + 1));
+        const std::size_t end = std::min(text.find_first_of(" \n"), text.size());
+        const std::string_view word = text.substr(0, end);
+        const bool ends_line = text.substr(end).starts_with('\n');
+        text.remove_prefix(std::min(text.size(), end + 1));
         if (column > kHelpColumn && column + 1 + word.size() > kLineWidth) new_line();
         if (column > kHelpColumn) {
             result += ' ';
@@ -156,6 +158,7 @@ std::string in_columns(const std::string& head, std::string_view text) {
         }
         result += word;
         column += word.size();
+        if (ends_line) new_line();
     }
     return result + "\n";
 }

@@ -27,12 +27,11 @@ namespace {
 constexpr const char* kSchema = "pathlight.scene/1";
 
 /// Options that a scene may preset: those that affect the picture, not output and reporting.
-const std::vector<std::string> kSettings = {
-    "method",        "view",          "backend",       "threads",      "spp",          "time-limit",
-    "target-error",  "width",         "height",        "size",         "seed",         "nee",
-    "max-depth",     "exposure",      "tonemap",       "field-budget", "volumes",      "bins",
-    "bsdf-fraction", "learning-rate", "learn-target",  "learn-from",   "field",        "roulette",
-    "refine",        "guiding",       "default-light", "up-axis",      "learn-passes", "probes"};
+const std::vector<std::string> kSettings = {"method",       "view",         "backend",   "threads",       "spp",
+                                            "time-limit",   "target-error", "width",     "height",        "size",
+                                            "seed",         "nee",          "max-depth", "exposure",      "tonemap",
+                                            "field-budget", "volumes",      "bins",      "bsdf-fraction", "learn",
+                                            "field",        "roulette",     "guiding",   "default-light", "up-axis"};
 
 /// The vertical axis: of the choice, else of the settings, else of the camera, else guessed. Expects scene.settings.
 void read_up(const JsonDocument& file, const LoadSettings& asked, SceneDescription& scene) {

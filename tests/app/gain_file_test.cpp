@@ -63,7 +63,7 @@ TEST_CASE("a field that learns from two passes has two in the statistics of a lo
     const TempDir folder;
     const std::string stats = folder / "stats.json";
     REQUIRE(run_program({"render", "door", "-o", folder / "x.pfm", "--size", "32x32", "--spp", "9", "--method",
-                         "reinforcement", "--learn-passes", "2", "--stats", stats})
+                         "reinforcement", "--learn", "passes=2", "--stats", stats})
                 .code == 0);
     const json all = json::parse(read_all(stats));
     CHECK(all["spp"] == 9);
