@@ -12,7 +12,6 @@
 #include "app/parse_values.h"
 #include "core/base/error.h"
 #include "core/base/square_number.h"
-#include "core/scene/needed_effects.h"
 
 namespace pl {
 namespace {
@@ -184,20 +183,6 @@ std::string print_representations(const Options& options) {
     if (options.fields.empty()) return std::string(name_of(options.render.field.representation));
     return fmt::format("{}",
                        fmt::join(names_in(options.fields, [](Representation field) { return name_of(field); }), ","));
-}
-
-void parse_forced_effects(Options& options, const std::string& text) {
-    if (text == "all") {
-        options.render.forced_effects = kEveryFeature;
-        return;
-    }
-    const std::vector<std::string> names = effect_names(kEveryFeature);
-    for (const std::string& item : split_at_commas(text)) {
-        const auto found = std::find(names.begin(), names.end(), item);
-        if (found == names.end()) fail_choice(names, item);
-        const Feature feature = kAllFeatures[static_cast<std::size_t>(found - names.begin())];
-        options.render.forced_effects = options.render.forced_effects.with(feature);
-    }
 }
 
 void parse_knobs(Options& options, const std::string& text) {

@@ -42,8 +42,6 @@ void parse_crop(Options& options, const std::string& text);
 /// "NAME,NAME...".
 void parse_representations(Options& options, const std::string& text);
 std::string print_representations(const Options& options);
-/// "NAME,NAME..." or "all".
-void parse_forced_effects(Options& options, const std::string& text);
 /// "NAME=VALUE", or several with commas between. The scene decides whether it takes them.
 void parse_knobs(Options& options, const std::string& text);
 /// "NAME=VALUE".

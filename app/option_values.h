@@ -91,7 +91,7 @@ struct Options {
     std::vector<std::string> backends;   ///< bench: empty: all that are available
     int seeds = 10;                      ///< bench: runs of each method, back end and scene
     std::uint32_t reference_spp = 4096;  ///< bench: samples per pixel in each half of references that it makes
-    std::string reference_folder;        ///< bench: empty: its own; render: empty: --target-error is one of noise
+    std::string reference_folder;        ///< bench: empty: its own
     std::string gate;                    ///< bench: earlier results to compare the new ones with
     double tolerance_percent = 10.0;     ///< bench: slowdown against the gate's results that passes
     bool effects = false;                ///< bench: compare kernels instead of methods

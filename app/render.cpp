@@ -18,7 +18,6 @@
 #include "core/diagnose/find_diagnostics.h"
 #include "core/io/files.h"
 #include "core/io/picture_file.h"
-#include "core/measure/picture_identity.h"
 #include "core/session/shown_range.h"
 
 namespace pl {
@@ -42,32 +41,22 @@ void require_paths(const Options& options) {
                                 info_of(options.render.view).name));
 }
 
-/// Empty without --target-error. Throws Error(Input) if the reference of --reference is missing.
-std::optional<bench::ErrorTarget> make_target(const Session& session, const Options& options) {
-    if (!options.target_error) return std::nullopt;
-    std::shared_ptr<const bench::Reference> reference;
-    if (!options.reference_folder.empty())
-        reference = std::make_shared<const bench::Reference>(
-            bench::ReferenceStore(options.reference_folder)
-                .require(bench::content_of(session.scene(), session.settings())));
-    return bench::ErrorTarget(*options.target_error, std::move(reference));
-}
-
 /// ", noise 0.0098 (target 0.01)"; empty without a target.
 std::string target_text(const bench::ErrorTarget* target) {
     if (target == nullptr) return "";
-    return fmt::format(", {} {} (target {:.3g})", target->word(),
+    return fmt::format(", noise {} (target {:.3g})",
                        target->measured() ? fmt::format("{:.3g}", *target->measured()) : "unknown", target->target());
 }
 
 /// Throws Error(Threshold) if another limit ended the rendering before the target was met.
 void require_low_error(bench::ErrorTarget* target, const RunOutcome& outcome) {
     if (target == nullptr || target->is_low_enough()) return;
-    throw Error(ErrorKind::Threshold,
-                fmt::format("--target-error: expected {} of at most {:.3g} as relMSE, got {} when --{} was reached",
-                            target->word(), target->target(),
-                            target->measured() ? fmt::format("{:.3g}", *target->measured()) : "none that is known",
-                            name_of(outcome.ended_by)));
+    throw Error(
+        ErrorKind::Threshold,
+        fmt::format("--target-error: expected noise of at most {:.3g} as relMSE, got {} when --{} was reached",
+                    target->target(),
+                    target->measured() ? fmt::format("{:.3g}", *target->measured()) : "none that is known",
+                    name_of(outcome.ended_by)));
 }
 
 /// Writes the file of --diagnostics; after an interruption, with the findings until then.
@@ -146,7 +135,8 @@ int run_render(const CommandLine& line, Console& console) {
     const std::string command = command_text(Command::Render, options, scene_defaults(options.scene, *loaded.scene));
     const FilmSlot slot = slot_of(options.render);
 
-    std::optional<bench::ErrorTarget> target = make_target(session, options);
+    std::optional<bench::ErrorTarget> target;
+    if (options.target_error) target.emplace(*options.target_error);
     bench::ErrorTarget* const aim = target ? &*target : nullptr;
     const RunOutcome outcome = run_saved(session, options, interrupt, console, {aim, &checkpoints});
     if (aim != nullptr) aim->measure_last(session, slot);

@@ -172,8 +172,6 @@ void settle_target(const CommandLine& line, Options& options) {
         throw Error(ErrorKind::Usage, fmt::format("--target-error: expected --view {}, whose error is known, got {}",
                                                   info_of(View::Beauty).name, info_of(options.render.view).name));
     }
-    if (renders && !options.reference_folder.empty() && !options.target_error)
-        throw Error(ErrorKind::Usage, "--reference: expected --target-error X with it");
 }
 
 /// Limits of a scene's settings, made for a good picture, are no limits of a measurement.

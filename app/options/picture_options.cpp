@@ -1,9 +1,6 @@
 #include "app/options/groups.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
-
-#include "core/scene/needed_effects.h"
 
 namespace pl {
 namespace {
@@ -67,11 +64,6 @@ constexpr auto kPictureOptions = std::to_array<OptionSpec>({
     {.name = "guiding", .flags = "--guiding", .value = "NAME", .group = kPicture,
      .help = "Guided methods with light samples",
      .is_expert = true, .commands = CommandSet(Command::View, Command::Render, Command::Replay, Command::Trace), .in_scene_files = true}),
-    {.name = "force-effects", .flags = "--force-effects", .value = "NAME,..", .group = kPicture,
-     .help = "Use a kernel compiled for these effects, too, although the scene lacks them: it is slower, and "
-             "the picture stays the same to the bit. Names as 'info' prints them, or all",
-     .is_expert = true, .commands = kWithScene, .parse = parse_forced_effects,
-     .print = [](const Options& o) { return fmt::format("{}", fmt::join(effect_names(o.render.forced_effects), ",")); }},
     {.name = "knob", .flags = "--knob", .value = "NAME=VALUE", .group = kPicture,
      .help = "Set a knob of the scene; may be given several times ('info' lists them)",
      .commands = kOpening, .repeatable = true, .parse = parse_knobs, .print = print_knobs},

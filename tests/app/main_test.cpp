@@ -176,7 +176,7 @@ TEST_CASE("2: usage") {
         {render("cornell", folder / "x.png", {"--target-error", "0"}), "--target-error: expected"},
         {render("cornell", folder / "x.png", {"--target-error", "0.1", "--view", "normal"}),
          "expected --view beauty"},
-        {render("cornell", folder / "x.png", {"--reference", folder / "r"}), "expected --target-error"},
+        {render("cornell", folder / "x.png", {"--reference", folder / "r"}), "unknown option '--reference' of 'render'"},
         {render("cornell", folder / "x.jpg"), "expected .exr, .pfm or .png, got .jpg"},
         {render("cornell", "jpg:-"), "-o: expected -, png:-, exr:- or pfm:-, got 'jpg:-'"},
         {render("cornell", folder / "x.png", {"--crop", "4,4,5,4"}),
