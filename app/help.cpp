@@ -24,7 +24,7 @@ constexpr std::array kCommands{
                 "Makes a picture without a display.",
                 {"pathlight render cornell -o cornell.png",
                  "pathlight render door --method reinforcement --time-limit 10 -o door.exr",
-                 "pathlight render door --knob opening=5 --size 256x256 --spp 16 -o dark.png"}},
+                 "pathlight render door -D opening=5 --size 256x256 --spp 16 -o dark.png"}},
     CommandInfo{Command::Replay, "replay", "SCENE --path FILE -o DIR",
                 "Makes the pictures of a moving camera, frame by frame, without a display.\n"
                 "FILE holds the cameras of the path, such as the viewer's bookmarks. Every frame gets the same time,\n"
@@ -36,7 +36,7 @@ constexpr std::array kCommands{
     CommandInfo{Command::Info, "info", "SCENE",
                 "Prints the contents of a scene, the effects that it needs and the kernel that serves it.",
                 {"pathlight info door",
-                 "pathlight info door --knob opening=5",
+                 "pathlight info door -D opening=5",
                  "pathlight info cornell --json"}},
     CommandInfo{Command::Convert, "convert", "SCENE -o FILE",
                 "Writes a scene in the program's own format: FILE, a .json, with mesh and images in FILE-parts.\n"
@@ -44,7 +44,7 @@ constexpr std::array kCommands{
                 "values stay; a default light is written as an environment map. Nothing is overwritten: both names\n"
                 "have to be new.",
                 {"pathlight convert cornell -o room.json",
-                 "pathlight convert door --knob opening=45 -o open-door.json",
+                 "pathlight convert door -D opening=45 -o open-door.json",
                  "pathlight convert kitchen.xml -D shade=0.5 -o kitchen.json"}},
     CommandInfo{Command::Devices, "devices", "",
                 "Lists the back ends, and why one is unavailable.",

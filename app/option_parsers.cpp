@@ -185,18 +185,10 @@ std::string print_representations(const Options& options) {
                        fmt::join(names_in(options.fields, [](Representation field) { return name_of(field); }), ","));
 }
 
-void parse_knobs(Options& options, const std::string& text) {
-    for (const std::string& item : split_at_commas(text)) {
-        const std::size_t equals = item.find('=');
-        if (equals == 0 || equals == std::string::npos) fail_value("NAME=VALUE, such as opening=5", item);
-        options.load.knobs.emplace_back(item.substr(0, equals), parse_float(item.substr(equals + 1)));
-    }
-}
-
 void parse_parameter(Options& options, const std::string& text) {
     const std::size_t equals = text.find('=');
     if (equals == 0 || equals == std::string::npos || text.find('\n') != std::string::npos)
-        fail_value("NAME=VALUE, such as spp=64", text);
+        fail_value("NAME=VALUE, such as opening=5", text);
     options.load.parameters.emplace_back(text.substr(0, equals), text.substr(equals + 1));
 }
 
@@ -238,13 +230,6 @@ std::string field_method_choices() {
     for (const MethodInfo& info : all_methods())
         if (info.uses_field) names.emplace_back(info.name);
     return one_of(names);
-}
-
-std::string print_knobs(const Options& options) {
-    std::string text;
-    for (const auto& [name, value] : options.load.knobs)
-        text += fmt::format("{}{}={}", text.empty() ? "" : ",", name, print_float(value));
-    return text;
 }
 
 std::string print_parameters(const Options& options) {

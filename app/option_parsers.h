@@ -42,9 +42,7 @@ void parse_crop(Options& options, const std::string& text);
 /// "NAME,NAME...".
 void parse_representations(Options& options, const std::string& text);
 std::string print_representations(const Options& options);
-/// "NAME=VALUE", or several with commas between. The scene decides whether it takes them.
-void parse_knobs(Options& options, const std::string& text);
-/// "NAME=VALUE".
+/// "NAME=VALUE". The scene decides whether it takes it.
 void parse_parameter(Options& options, const std::string& text);
 void parse_at(Options& options, const std::string& text);
 void parse_pixel(Options& options, const std::string& text);
@@ -53,7 +51,6 @@ void parse_samples(Options& options, const std::string& text);
 /// "precomputed or reinforcement": the methods with a learned field to show.
 std::string field_method_choices();
 
-std::string print_knobs(const Options& options);
 std::string print_parameters(const Options& options);
 /// Empty if it was not given.
 std::string print_default_light(const Options& options);

@@ -68,7 +68,7 @@ struct PixelWindow {
 struct Options {
     std::string scene;                ///< name or path; empty if none was given
     std::vector<std::string> inputs;  ///< positional arguments of subcommands that do not take one scene
-    LoadSettings load;                ///< choices for opening the scene; knobs in the order given
+    LoadSettings load;                ///< choices for opening the scene
     std::string output;
 
     RenderSettings render;  ///< final only after resolve_options(): camera and size depend on the scene

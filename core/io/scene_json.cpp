@@ -155,7 +155,7 @@ SceneDescription load_scene_json(const std::filesystem::path& path, const LoadSe
     scene.name = file.text("/name").value_or(path.stem().string());
     read_vertex_colors(file, scene);
     read_materials(file, scene);
-    read_knobs(file, scene, groups, asked.knobs);
+    read_knobs(file, scene, groups, asked.parameters);
     read_environment(file, scene);
     read_punctual_lights(file, scene);
     read_settings(file, scene);

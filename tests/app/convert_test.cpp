@@ -87,7 +87,7 @@ TEST_CASE("convert: a scene file keeps camera, settings, sky, sun and the values
     const TempDir folder;
     check_same(folder, "textured-room");
     check_same(folder, "lens");
-    check_same(folder, "door", {"--knob", "opening=20"});
+    check_same(folder, "door", {"-D", "opening=20"});
     const ProgramResult result = run_program({"convert", "door", "-o", folder / "d.json"});
     CHECK_THAT(result.err, contains("its knobs are left out"));
 }

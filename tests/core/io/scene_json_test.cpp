@@ -123,7 +123,7 @@ TEST_CASE("Points of a scene file are in the coordinates of a mesh far from the 
                    "1], \"does\": \"grows\", \"scales\": [{\"groups\": [\"a\"], \"about\": [391234.37, "
                    "5820123.81, 30], \"by\": [1, 0, 0]}]}}}")
             .string(),
-        folder.path(), {.knobs = {{"k", 1.0f}}});
+        folder.path(), {.parameters = {{"k", "1"}}});
     const auto place = [&](const glm::vec3& point) { return scene.origin + glm::dvec3(point); };
     const auto is_near = [&](const glm::vec3& point, const glm::dvec3& wanted) {
         return glm::length(place(point) - wanted) < 1e-5;
