@@ -55,7 +55,7 @@ std::vector<std::string> words_of(const OptionSpec& spec) {
     return words;
 }
 
-bool takes_file(std::string_view value) { return value == "FILE"; }
+bool takes_file(std::string_view value) { return value.starts_with("FILE"); }
 bool takes_folder(std::string_view value) { return value.starts_with("DIR") || value.starts_with("FOLDER"); }
 
 std::string first_line(std::string_view text) { return std::string(text.substr(0, text.find('\n'))); }

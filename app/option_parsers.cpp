@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
+#include <system_error>
 #include <vector>
 
 #include <fmt/format.h>
@@ -12,6 +14,8 @@
 #include "app/parse_values.h"
 #include "core/base/error.h"
 #include "core/base/square_number.h"
+#include "core/io/files.h"
+#include "core/io/json_document.h"
 
 namespace pl {
 namespace {
@@ -103,16 +107,21 @@ void parse_fov(Options& options, const std::string& text) {
     options.camera.fov_deg = degrees;
 }
 
-void parse_aperture(Options& options, const std::string& text) {
-    const float radius = parse_float(text);
-    if (!(radius >= 0.0f)) fail_value("a radius of at least 0", text);
-    options.camera.aperture_radius = radius;
-}
-
-void parse_focus(Options& options, const std::string& text) {
-    const float distance = parse_float(text);
-    if (!(distance > 0.0f)) fail_value("a distance above 0", text);
-    options.camera.focus_distance = distance;
+void parse_camera(Options& options, const std::string& text) {
+    std::error_code ignored;
+    const std::filesystem::path path(text);
+    if (text.starts_with('{')) {
+        try {
+            read_camera_parts(JsonDocument(text, "JSON"), options.camera);
+        } catch (const Error& error) {
+            throw Error(ErrorKind::Usage, error.what());
+        }
+    } else if (suffix_of(path) == ".json" ||
+               (std::filesystem::exists(path, ignored) && !std::filesystem::is_directory(path, ignored))) {
+        read_camera_parts(JsonDocument(read_text_file(path), path), options.camera);
+    } else {
+        options.load.camera = text;
+    }
 }
 
 void parse_field_budget(Options& options, const std::string& text) {
@@ -230,6 +239,14 @@ std::string field_method_choices() {
     for (const MethodInfo& info : all_methods())
         if (info.uses_field) names.emplace_back(info.name);
     return one_of(names);
+}
+
+std::string print_camera(const Options& options) {
+    const CameraDescription& camera = options.render.camera;
+    return fmt::format("{}\n{{\"aperture_radius\":{},\"focus_distance\":{}}}\n{{\"shift_x\":{},\"shift_y\":{}}}\n{{"
+                       "\"mirrored\":{}}}",
+                       options.load.camera, print_float(camera.aperture_radius), print_float(camera.focus_distance),
+                       print_float(camera.shift.x), print_float(camera.shift.y), camera.is_mirrored);
 }
 
 std::string print_parameters(const Options& options) {

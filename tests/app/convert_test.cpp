@@ -111,13 +111,13 @@ TEST_CASE("convert: a glTF file keeps pictures and listed cameras") {
     file.node({{"name", "far"}, {"camera", 0}, {"translation", {0, 0, 9}}});
     write_all(folder / "a.glb", file.glb());
     check_same(folder, folder / "a.glb");
-    check_same(folder, folder / "a.glb", {"--scene-camera", "far"});
+    check_same(folder, folder / "a.glb", {"--camera", "far"});
 
-    convert(folder / "a.glb", folder / "s.json", {"--scene-camera", "2"});
+    convert(folder / "a.glb", folder / "s.json", {"--camera", "2"});
     const ProgramResult info = run_program({"info", folder / "s.json", "--json"});
     const ordered_json cameras = ordered_json::parse(lines_of(info.out).back())["cameras"];
     CHECK(cameras == ordered_json::array({"far", "front"}));
-    CHECK(picture(folder, folder / "s.json", {"--scene-camera", "front"}) == picture(folder, folder / "a.glb"));
+    CHECK(picture(folder, folder / "s.json", {"--camera", "front"}) == picture(folder, folder / "a.glb"));
 }
 
 TEST_CASE("convert: a Mitsuba file keeps its picture, its size and its sky") {
