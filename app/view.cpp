@@ -25,7 +25,7 @@ std::unique_ptr<RenderBackend> make_beside_window(const std::string& name, int t
     return make_own_backend(name, threads > 0 ? threads : std::max(1, usable_share() - 1));
 }
 
-/// Vertical axis, camera, parameters, materials and their reading, by the command line, belong to the scene that it names, not to scenes
+/// Vertical axis, camera, parameters and materials, by the command line, belong to the scene that it names, not to scenes
 /// opened later.
 LoadSettings load_settings_of(const ui::SceneRequest& scene, const Options& opened) {
     LoadSettings settings{.default_light = opened.load.default_light};
@@ -33,7 +33,6 @@ LoadSettings load_settings_of(const ui::SceneRequest& scene, const Options& open
     if (scene.name == opened.scene) {
         settings.up_axis = opened.load.up_axis;
         settings.camera = opened.load.camera;
-        settings.map_kd = opened.load.map_kd;
         if (suffix_of(scene.name) == ".xml") settings.parameters = opened.load.parameters;  // no knobs
         settings.materials = opened.load.materials;
     }

@@ -72,9 +72,6 @@ constexpr auto kPictureOptions = std::to_array<OptionSpec>({
              "of the scene",
      .is_expert = true, .commands = kOpening, .parse = [](Options& o, Text text) { o.load.materials = text; },
      .print = [](const Options& o) { return o.load.materials.string(); }},
-    choosing<&Options::load, &LoadSettings::map_kd>(
-    {.name = "map-kd", .flags = "--map-kd", .value = "NAME", .group = kPicture,
-     .help = "Image of a material of an MTL file", .is_expert = true, .commands = kOpening}),
     {.name = "default-light", .flags = "--default-light", .value = "on|off", .group = kPicture,
      .help = "Light a scene that has no light with a sky and a soft sun (default on); no scene with a light changes",
      .is_expert = true, .commands = kOpening, .in_scene_files = true,

@@ -76,7 +76,7 @@ TEST_CASE("every value of a choice is described, and each by a name and a label 
 }
 
 TEST_CASE("the help of a choice names its values and the default") {
-    CHECK(choosing_options().size() >= 13);
+    CHECK(choosing_options().size() >= 12);
     for (const OptionSpec& spec : choosing_options()) {
         const std::string help = spec.help_text();
         CAPTURE(help);

@@ -73,7 +73,9 @@ TEST_CASE("convert: an OBJ file with images, normals and a default camera keeps 
     write_all(folder / "a.obj", kTwoSquares);
     write_all(folder / "m.mtl", kMaterials);
     check_same(folder, folder / "a.obj");
-    check_same(folder, folder / "a.obj", {"--map-kd", "replace", "--up-axis", "z"});
+    write_all(folder / "a.json", R"({"schema": "pathlight.scene/1", "obj": "a.obj", "map_kd": "replace"})");
+    check_same(folder, folder / "a.json", {"--up-axis", "z"});
+    CHECK(picture(folder, folder / "a.json") != picture(folder, folder / "a.obj"));
 }
 
 TEST_CASE("convert: a scene without a light keeps its default light, or its darkness") {

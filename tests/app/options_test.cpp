@@ -65,7 +65,6 @@ Options any_options(std::mt19937& random) {
     if (whole(0, 1) == 1) o.time_limit_seconds = real(0.001f, 1.0e9f);
     if (whole(0, 1) == 1) o.load.default_light = whole(0, 1) == 1;
     if (whole(0, 1) == 1) o.load.up_axis = static_cast<UpAxis>(whole(0, 3));
-    if (whole(0, 1) == 1) o.load.map_kd = MapKd::Replaces;
     if (whole(0, 1) == 1) o.load.camera = "the side's camera";
     if (whole(0, 1) == 1) o.load.materials = "edited materials.json";
     for (int i = whole(0, 2); i > 0; --i) o.load.parameters.emplace_back("p" + std::to_string(i), "it's, $2 = 3");
@@ -102,7 +101,6 @@ void require_equal(const Options& a, const Options& b) {
     REQUIRE(a.load.default_light == b.load.default_light);
     REQUIRE(a.load.up_axis == b.load.up_axis);
     REQUIRE(a.load.camera == b.load.camera);
-    REQUIRE(a.load.map_kd == b.load.map_kd);
     REQUIRE(a.load.materials == b.load.materials);
     REQUIRE(a.load.parameters == b.load.parameters);
     REQUIRE(a.threads == b.threads);

@@ -160,6 +160,7 @@ TEST_CASE("Values of a wrong type or range are refused with file and line") {
         std::string told;
     };
     const Case sample = GENERATE(
+        Case{"\"map_kd\": \"add\"", "expected multiply or replace, got 'add'"},
         Case{"\"name\": 3", "expected a text in quotes, got '3'"}, Case{"\"camera\": []", "expected an object"},
         Case{"\"camera\": {\"eye\": [1, 2]}", "expected three numbers"},
         Case{"\"camera\": {\"eye\": [1, 2, \"3\"]}", "expected three numbers"},
