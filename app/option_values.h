@@ -118,8 +118,8 @@ struct Options {
     HemisphereDisplay drawn = HemisphereDisplay::Disc;  ///< inspect: of cells, in a PNG
 
     std::string stats_file;
-    std::string diagnostics_file;  ///< render: picture of the places of diagnostics
-    std::string gain_file;         ///< render: where its method gains or loses
+    std::string diagnostics_file;  ///< trace: picture of the places of diagnostics
+    std::string gain_file;         ///< trace: where the method of a picture gains or loses
     std::string log_file;
     bool json = false;
     bool quiet = false;

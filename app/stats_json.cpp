@@ -108,7 +108,7 @@ Json stats_json(const Session& session, const Snapshot& snapshot, const Options&
                {"target_error", target_json(target)}};
     add_counters(stats, snapshot.counters);
     if (const Communicator* const ranks = shared_ranks()) add_traffic(stats, *ranks);
-    stats["diagnostics"] = diagnostics_json(snapshot, nullptr);
+    stats["diagnostics"] = diagnostics_json(snapshot);
     stats["mean_radiance"] = mean_radiance(snapshot);
     stats["field"] = field_json(snapshot.field);
     stats["guiding"] = guiding_json(snapshot.guiding);

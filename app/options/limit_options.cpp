@@ -23,7 +23,7 @@ constexpr auto kLimitOptions = std::to_array<OptionSpec>({
      .commands = CommandSet(Command::Replay), .parse = parse_time_limit,
      .print = [](const Options& o) { return o.time_limit_seconds ? print_real(*o.time_limit_seconds) : ""; }},
     {.name = "spp", .flags = "--spp,--samples", .value = "N", .group = kStop,
-     .help = "With --why: passes that train the field before (default 64)",
+     .help = "With --why: passes that train the field before; with --diagnostics and --gain: samples per pixel (default 64)",
      .commands = CommandSet(Command::Trace), .parse = parse_spp},
     {.name = "spp", .flags = "--spp,--samples", .value = "N", .group = kStop,
      .help = "Samples per pixel in each half (default 4096 unless a time limit is given)",
