@@ -1,6 +1,7 @@
 #include "app/diagnostics_file.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <functional>
 
 #include <fmt/format.h>

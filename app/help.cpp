@@ -60,13 +60,13 @@ constexpr std::array kCommands{
                 {"pathlight inspect cornell --pixel 256,450 -o floor.png",
                  "pathlight inspect cornell --at 400,0,100 --size 256x256 -o floor.json",
                  "pathlight inspect door --pixel 256,400 --truth -o floor.csv"}},
-    CommandInfo{Command::Trace, "trace", "SCENE (--pixel X,Y (--sample N[-M] | --why) | --diagnostics FILE | --gain FILE)",
+    CommandInfo{Command::Trace, "trace", "SCENE --pixel X,Y (--sample N[-M] | --why)",
                 "Prints one path of a picture: every vertex with its densities and weights.\n"
                 "It is the path that 'render' with the same options traces, to the bit. A method that learns renders\n"
                 "the samples before it first, so that the field is the one that the path sampled from. Of several\n"
                 "samples a line each, the brightest first; with --json each whole path. --why: the noise of the\n"
-                "pixel by technique and bounces, and whether guiding gains there. --diagnostics and --gain: what\n"
-                "is wrong with the whole picture, and where guiding gains in it.",
+                "pixel by technique and bounces, and whether guiding gains there. --diagnostics FILE and --gain FILE,\n"
+                "without --pixel: what is wrong with the whole picture, and where guiding gains in it.",
                 {"pathlight trace cornell --pixel 256,450 --sample 0",
                  "pathlight trace cornell --pixel 256,450 --sample 0-15",
                  "pathlight trace door --pixel 256,400 --why --method reinforcement"}},

@@ -86,10 +86,9 @@ void adopt_field(const CommandLine& line, const LearnedField& field, Options& op
     options.render.method = field.method;
     options.render.field = field.settings;
     for (const auto& [spec, text] : line.given) {
-        if (spec->print == nullptr) continue;
         Options asked = options;
         apply_option(*spec, asked, text);
-        if (spec->print(asked) == spec->print(options)) continue;
+        if (texts_apart(*spec, asked, options).empty()) continue;
         const std::vector<std::string> own = texts_apart(*spec, options, asked);
         throw Error(ErrorKind::Usage,
                     fmt::format("{}: the field in {} was learned {}: expected that, or nothing", words(*spec, text),

@@ -25,15 +25,15 @@ std::unique_ptr<RenderBackend> make_beside_window(const std::string& name, int t
     return make_own_backend(name, threads > 0 ? threads : std::max(1, usable_share() - 1));
 }
 
-/// Vertical axis, camera, parameters and materials, by the command line, belong to the scene that it names, not to scenes
-/// opened later.
+/// Vertical axis, camera, parameters and materials, by the command line, belong to the scene that it names, not to scenes opened later. Of
+/// its parameters those that are knobs come with the request.
 LoadSettings load_settings_of(const ui::SceneRequest& scene, const Options& opened) {
     LoadSettings settings{.default_light = opened.load.default_light};
     for (const auto& [name, value] : scene.knobs) settings.parameters.emplace_back(name, print_float(value));
     if (scene.name == opened.scene) {
         settings.up_axis = opened.load.up_axis;
         settings.camera = opened.load.camera;
-        if (suffix_of(scene.name) == ".xml") settings.parameters = opened.load.parameters;  // no knobs
+        if (suffix_of(scene.name) == ".xml") settings.parameters = opened.load.parameters;
         settings.materials = opened.load.materials;
     }
     return settings;

@@ -317,6 +317,7 @@ TEST_CASE("options beside a loaded field have to agree with it") {
         parse_with_field(loading({"--bins", "64", "--method", "precomputed", "--field-budget", "16"}), field));
     CHECK_NOTHROW(parse_with_field(loading({"--seed", "5", "--nee", "on", "--bsdf-fraction", "0.7"}), field));
     CHECK_NOTHROW(parse_with_field(loading({"--learn", "passes=9,probes=1"}), field));
+    CHECK_NOTHROW(parse_with_field(loading({"-D", "opening=5", "--camera", R"({"shift_x": 1})"}), field));
     struct Wrong {
         std::vector<std::string> words;
         std::string message;
