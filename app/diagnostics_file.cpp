@@ -1,8 +1,13 @@
 #include "app/diagnostics_file.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <functional>
 
+#include <fmt/format.h>
+
+#include "app/progress.h"
+#include "core/diagnose/find_diagnostics.h"
 #include "core/diagnose/mark_diagnostics.h"
 #include "core/io/picture_file.h"
 #include "core/kernel/film/frame_pixel.h"
@@ -68,27 +73,38 @@ LinearImage counts_of(const diagnose::DiagnosticsMap& map) {
 
 }  // namespace
 
-Json diagnostics_json(const Snapshot& snapshot, const diagnose::DiagnosticsMap* found) {
+Json diagnostics_json(const Snapshot& snapshot) {
     const diagnose::DiagnosticCounts counted = diagnose::counted_diagnostics(snapshot);
     // Whether surfaces close the scene is examined only once a path has escaped.
     const bool is_known = snapshot.counters.path.escaped > 0;
     Json json{{"closed", is_known ? Json(snapshot.is_closed) : Json(nullptr)}};
     for (const diagnose::DiagnosticInfo& info : diagnose::all_diagnostics())
         json[std::string(info.name)] = counted[index_of(info.id)];
-    json["found"] = found != nullptr ? found_json(*found) : Json(nullptr);
     return json;
 }
 
-void save_diagnostics(const std::filesystem::path& path, const Snapshot& snapshot, const DisplaySettings& display,
-                      const diagnose::DiagnosticsMap& map, ImageMetadata metadata) {
-    metadata.emplace_back("diagnostics", summary_of(map));
+bool write_diagnostics(const Session& session, const Snapshot& snapshot, const Options& options,
+                       ImageMetadata metadata, const InterruptGuard& interrupt, Console& console) {
+    ProgressDisplay progress(console, !options.no_progress && !options.quiet);
+    const diagnose::DiagnosticsMap found = diagnose::find_diagnostics(
+        diagnose::diagnostics_input(session, snapshot.slot), options.threads, interrupt.flag(), [&](double share) {
+            progress.show({.activity = "tracing again", .share = share, .spp = snapshot.passes, .detail = ""});
+        });
+    const std::string summary = summary_of(found);
+    metadata.emplace_back("diagnostics", summary);
+    const std::filesystem::path path = options.diagnostics_file;
     const ImageKind kind = image_kind(path);
     if (kind == ImageKind::Png)
-        write_png8(path, marked(display_image(snapshot, display), map), metadata);
+        write_png8(path, marked(display_image(snapshot, options.display), found), metadata);
     else if (kind == ImageKind::Exr)
-        write_exr(path, counts_of(map), metadata);
+        write_exr(path, counts_of(found), metadata);
     else
-        write_pfm(path, counts_of(map));
+        write_pfm(path, counts_of(found));
+    console.remark(fmt::format("{}: {}\n", options.diagnostics_file, summary));
+    Json event = diagnostics_json(snapshot);
+    event["found"] = found_json(found);
+    console.event("diagnostics", event);
+    return found.is_complete;
 }
 
 }  // namespace pl

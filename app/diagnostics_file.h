@@ -1,22 +1,22 @@
 // --diagnostics FILE: the diagnostics of a picture as a picture and as JSON.
 #pragma once
 
-#include <filesystem>
-
-#include "app/events.h"
-#include "core/diagnose/diagnostics.h"
+#include "app/console.h"
+#include "app/interrupt.h"
+#include "app/options.h"
 #include "core/io/image.h"
-#include "core/session/settings.h"
+#include "core/session/session.h"
 
 namespace pl {
 
-/// Counts of the passes, and their places: `found` is null without a search. Clamped training samples are null there
-/// if tracing again does not repeat those of the passes.
-Json diagnostics_json(const Snapshot& snapshot, const diagnose::DiagnosticsMap* found);
+/// Counts of the passes of a picture.
+Json diagnostics_json(const Snapshot& snapshot);
 
-/// By suffix. .png: the picture, darkened, with marks in the colors of all_diagnostics(). .exr and .pfm: counts of each
-/// pixel, red invalid samples, green escaped paths, blue lookup misses and clamped training samples.
-void save_diagnostics(const std::filesystem::path& path, const Snapshot& snapshot, const DisplaySettings& display,
-                      const diagnose::DiagnosticsMap& map, ImageMetadata metadata);
+/// Traces the paths of a picture again and writes their places. By suffix, .png: the picture, darkened, with marks in the colors of
+/// all_diagnostics(). .exr and .pfm: counts of each pixel, red invalid samples, green escaped paths, blue lookup misses and clamped
+/// training samples. An event has diagnostics_json() and the places as `found`; clamped training samples are null there if tracing
+/// again does not repeat those of the passes. Returns false if it was interrupted, and writes what was found until then.
+bool write_diagnostics(const Session& session, const Snapshot& snapshot, const Options& options,
+                       ImageMetadata metadata, const InterruptGuard& interrupt, Console& console);
 
 }  // namespace pl

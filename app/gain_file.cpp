@@ -67,15 +67,11 @@ ByteImage marked(ByteImage image, const TileGains& gains) {
 
 void require_gain(const Options& options) {
     if (options.gain_file.empty()) return;
-    const RenderSettings& render = options.render;
-    if (!info_of(render.method).uses_field)
+    const MethodInfo& method = info_of(options.render.method);
+    if (!method.uses_field)
         throw Error(ErrorKind::Usage, fmt::format("--gain: compares a guided method with default: expected --method "
                                                   "precomputed or reinforcement, got {}",
-                                                  info_of(render.method).name));
-    if (render.view != View::Beauty)
-        throw Error(ErrorKind::Usage,
-                    fmt::format("--gain: expected --view beauty, got '{}', which has no noise of paths",
-                                info_of(render.view).name));
+                                                  method.name));
     if (!is_json(options) && image_kind(options.gain_file) != ImageKind::Png)
         throw Error(ErrorKind::Usage,
                     fmt::format("--gain: expected a .json or .png file, got '{}'", options.gain_file));

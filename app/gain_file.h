@@ -9,7 +9,7 @@
 
 namespace pl {
 
-/// Throws Error(Usage) if --gain is given with a method or view that has none, or for a file of another kind than .json and .png.
+/// Throws Error(Usage) if --gain is given with a method that has none, or for a file of another kind than .json and .png.
 void require_gain(const Options& options);
 
 /// Renders `default` beside the finished picture, in the same session, until it has taken as much time, and writes the file: the gains as

@@ -55,7 +55,7 @@ std::vector<std::string> words_of(const OptionSpec& spec) {
     return words;
 }
 
-bool takes_file(std::string_view value) { return value == "FILE"; }
+bool takes_file(std::string_view value) { return value.starts_with("FILE"); }
 bool takes_folder(std::string_view value) { return value.starts_with("DIR") || value.starts_with("FOLDER"); }
 
 std::string first_line(std::string_view text) { return std::string(text.substr(0, text.find('\n'))); }
@@ -84,7 +84,7 @@ std::string man_option(const std::vector<std::string>& flags, std::string_view v
     std::string head;
     for (const std::string& flag : flags) head += (head.empty() ? "" : ", ") + ("\\fB" + roff(flag) + "\\fR");
     if (!value.empty()) head += " \\fI" + roff(value) + "\\fR";
-    return fmt::format(".TP\n{}\n{}\n", head, roff(help));
+    return fmt::format(".TP\n{}\n{}\n", head, replaced(roff(help), "\n", "\n.br\n"));
 }
 
 /// "(render, view)", or nothing if all subcommands take it.
@@ -202,9 +202,9 @@ complete -F _pathlight pathlight
                   {{"@NAMES@", names}, {"@VALUES@", values}, {"@OPTIONS@", options}, {"@INPUTS@", inputs}});
 }
 
-/// Text inside of [...] in single quotes.
+/// Text inside of [...] in single quotes, in one line.
 std::string zsh_help(const std::string& text) {
-    return replaced(replaced(replaced(text, "[", "\\["), "]", "\\]"), "'", "'\\''");
+    return replaced(replaced(replaced(replaced(text, "\n", " "), "[", "\\["), "]", "\\]"), "'", "'\\''");
 }
 
 std::string zsh_option(const TakenOption& option) {

@@ -24,7 +24,7 @@ constexpr std::array kCommands{
                 "Makes a picture without a display.",
                 {"pathlight render cornell -o cornell.png",
                  "pathlight render door --method reinforcement --time-limit 10 -o door.exr",
-                 "pathlight render door --knob opening=5 --size 256x256 --spp 16 -o dark.png"}},
+                 "pathlight render door -D opening=5 --size 256x256 --spp 16 -o dark.png"}},
     CommandInfo{Command::Replay, "replay", "SCENE --path FILE -o DIR",
                 "Makes the pictures of a moving camera, frame by frame, without a display.\n"
                 "FILE holds the cameras of the path, such as the viewer's bookmarks. Every frame gets the same time,\n"
@@ -36,7 +36,7 @@ constexpr std::array kCommands{
     CommandInfo{Command::Info, "info", "SCENE",
                 "Prints the contents of a scene, the effects that it needs and the kernel that serves it.",
                 {"pathlight info door",
-                 "pathlight info door --knob opening=5",
+                 "pathlight info door -D opening=5",
                  "pathlight info cornell --json"}},
     CommandInfo{Command::Convert, "convert", "SCENE -o FILE",
                 "Writes a scene in the program's own format: FILE, a .json, with mesh and images in FILE-parts.\n"
@@ -44,7 +44,7 @@ constexpr std::array kCommands{
                 "values stay; a default light is written as an environment map. Nothing is overwritten: both names\n"
                 "have to be new.",
                 {"pathlight convert cornell -o room.json",
-                 "pathlight convert door --knob opening=45 -o open-door.json",
+                 "pathlight convert door -D opening=45 -o open-door.json",
                  "pathlight convert kitchen.xml -D shade=0.5 -o kitchen.json"}},
     CommandInfo{Command::Devices, "devices", "",
                 "Lists the back ends, and why one is unavailable.",
@@ -65,7 +65,8 @@ constexpr std::array kCommands{
                 "It is the path that 'render' with the same options traces, to the bit. A method that learns renders\n"
                 "the samples before it first, so that the field is the one that the path sampled from. Of several\n"
                 "samples a line each, the brightest first; with --json each whole path. --why: the noise of the\n"
-                "pixel by technique and bounces, and whether guiding gains there.",
+                "pixel by technique and bounces, and whether guiding gains there. --diagnostics FILE and --gain FILE,\n"
+                "without --pixel: what is wrong with the whole picture, and where guiding gains in it.",
                 {"pathlight trace cornell --pixel 256,450 --sample 0",
                  "pathlight trace cornell --pixel 256,450 --sample 0-15",
                  "pathlight trace door --pixel 256,400 --why --method reinforcement"}},
@@ -147,8 +148,10 @@ std::string in_columns(const std::string& head, std::string_view text) {
         column = kHelpColumn;
     }
     while (!text.empty()) {
-        const std::string_view word = text.substr(0, text.find(' '));
-        text.remove_prefix(std::min(text.size(), word.size() + 1));
+        const std::size_t end = std::min(text.find_first_of(" \n"), text.size());
+        const std::string_view word = text.substr(0, end);
+        const bool ends_line = text.substr(end).starts_with('\n');
+        text.remove_prefix(std::min(text.size(), end + 1));
         if (column > kHelpColumn && column + 1 + word.size() > kLineWidth) new_line();
         if (column > kHelpColumn) {
             result += ' ';
@@ -156,6 +159,7 @@ std::string in_columns(const std::string& head, std::string_view text) {
         }
         result += word;
         column += word.size();
+        if (ends_line) new_line();
     }
     return result + "\n";
 }

@@ -131,7 +131,7 @@ std::string report_text(const SceneReport& report) {
     text += fmt::format("camera     eye {}, target {}, up {}, fov {} degrees\n", print_vector(camera.eye),
                         print_vector(camera.target), print_vector(camera.up), print_float(camera.fov_deg));
     for (std::size_t i = 0; i < scene.cameras.size(); ++i)
-        text += fmt::format("           --scene-camera {}: {}{}\n", i + 1, scene.cameras[i].name,
+        text += fmt::format("           --camera {}: {}{}\n", i + 1, scene.cameras[i].name,
                             scene.chosen_camera == i + 1 ? " (this one)" : "");
     text += fmt::format("effects    {}\n", report.effects.empty() ? "none needed" : "");
     for (const Effect& effect : report.effects)

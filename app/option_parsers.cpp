@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
+#include <system_error>
 #include <vector>
 
 #include <fmt/format.h>
@@ -12,7 +14,8 @@
 #include "app/parse_values.h"
 #include "core/base/error.h"
 #include "core/base/square_number.h"
-#include "core/scene/needed_effects.h"
+#include "core/io/files.h"
+#include "core/io/json_document.h"
 
 namespace pl {
 namespace {
@@ -104,16 +107,21 @@ void parse_fov(Options& options, const std::string& text) {
     options.camera.fov_deg = degrees;
 }
 
-void parse_aperture(Options& options, const std::string& text) {
-    const float radius = parse_float(text);
-    if (!(radius >= 0.0f)) fail_value("a radius of at least 0", text);
-    options.camera.aperture_radius = radius;
-}
-
-void parse_focus(Options& options, const std::string& text) {
-    const float distance = parse_float(text);
-    if (!(distance > 0.0f)) fail_value("a distance above 0", text);
-    options.camera.focus_distance = distance;
+void parse_camera(Options& options, const std::string& text) {
+    std::error_code ignored;
+    const std::filesystem::path path(text);
+    if (text.starts_with('{')) {
+        try {
+            read_camera_parts(JsonDocument(text, "JSON"), options.camera);
+        } catch (const Error& error) {
+            throw Error(ErrorKind::Usage, error.what());
+        }
+    } else if (suffix_of(path) == ".json" ||
+               (std::filesystem::exists(path, ignored) && !std::filesystem::is_directory(path, ignored))) {
+        read_camera_parts(JsonDocument(read_text_file(path), path), options.camera);
+    } else {
+        options.load.camera = text;
+    }
 }
 
 void parse_field_budget(Options& options, const std::string& text) {
@@ -186,32 +194,10 @@ std::string print_representations(const Options& options) {
                        fmt::join(names_in(options.fields, [](Representation field) { return name_of(field); }), ","));
 }
 
-void parse_forced_effects(Options& options, const std::string& text) {
-    if (text == "all") {
-        options.render.forced_effects = kEveryFeature;
-        return;
-    }
-    const std::vector<std::string> names = effect_names(kEveryFeature);
-    for (const std::string& item : split_at_commas(text)) {
-        const auto found = std::find(names.begin(), names.end(), item);
-        if (found == names.end()) fail_choice(names, item);
-        const Feature feature = kAllFeatures[static_cast<std::size_t>(found - names.begin())];
-        options.render.forced_effects = options.render.forced_effects.with(feature);
-    }
-}
-
-void parse_knobs(Options& options, const std::string& text) {
-    for (const std::string& item : split_at_commas(text)) {
-        const std::size_t equals = item.find('=');
-        if (equals == 0 || equals == std::string::npos) fail_value("NAME=VALUE, such as opening=5", item);
-        options.load.knobs.emplace_back(item.substr(0, equals), parse_float(item.substr(equals + 1)));
-    }
-}
-
 void parse_parameter(Options& options, const std::string& text) {
     const std::size_t equals = text.find('=');
     if (equals == 0 || equals == std::string::npos || text.find('\n') != std::string::npos)
-        fail_value("NAME=VALUE, such as spp=64", text);
+        fail_value("NAME=VALUE, such as opening=5", text);
     options.load.parameters.emplace_back(text.substr(0, equals), text.substr(equals + 1));
 }
 
@@ -255,11 +241,12 @@ std::string field_method_choices() {
     return one_of(names);
 }
 
-std::string print_knobs(const Options& options) {
-    std::string text;
-    for (const auto& [name, value] : options.load.knobs)
-        text += fmt::format("{}{}={}", text.empty() ? "" : ",", name, print_float(value));
-    return text;
+std::string print_camera(const Options& options) {
+    const CameraDescription& camera = options.render.camera;
+    return fmt::format("{}\n{{\"aperture_radius\":{},\"focus_distance\":{}}}\n{{\"shift_x\":{},\"shift_y\":{}}}\n{{"
+                       "\"mirrored\":{}}}",
+                       options.load.camera, print_float(camera.aperture_radius), print_float(camera.focus_distance),
+                       print_float(camera.shift.x), print_float(camera.shift.y), camera.is_mirrored);
 }
 
 std::string print_parameters(const Options& options) {

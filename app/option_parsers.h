@@ -26,8 +26,8 @@ void parse_probes(Options& options, const std::string& text);
 void parse_bsdf_fraction(Options& options, const std::string& text);
 std::string print_bsdf_fraction(const MixtureSettings& mixture);
 void parse_fov(Options& options, const std::string& text);
-void parse_aperture(Options& options, const std::string& text);
-void parse_focus(Options& options, const std::string& text);
+/// A file or a text of read_camera_parts(), else the name of a camera of the scene.
+void parse_camera(Options& options, const std::string& text);
 void parse_field_budget(Options& options, const std::string& text);
 void parse_refine(Options& options, const std::string& text);
 std::string print_refine(float share);
@@ -42,11 +42,7 @@ void parse_crop(Options& options, const std::string& text);
 /// "NAME,NAME...".
 void parse_representations(Options& options, const std::string& text);
 std::string print_representations(const Options& options);
-/// "NAME,NAME..." or "all".
-void parse_forced_effects(Options& options, const std::string& text);
-/// "NAME=VALUE", or several with commas between. The scene decides whether it takes them.
-void parse_knobs(Options& options, const std::string& text);
-/// "NAME=VALUE".
+/// "NAME=VALUE". The scene decides whether it takes it.
 void parse_parameter(Options& options, const std::string& text);
 void parse_at(Options& options, const std::string& text);
 void parse_pixel(Options& options, const std::string& text);
@@ -55,7 +51,8 @@ void parse_samples(Options& options, const std::string& text);
 /// "precomputed or reinforcement": the methods with a learned field to show.
 std::string field_method_choices();
 
-std::string print_knobs(const Options& options);
+/// The name of the scene's camera, then what --eye and its like do not have, part by part in lines.
+std::string print_camera(const Options& options);
 std::string print_parameters(const Options& options);
 /// Empty if it was not given.
 std::string print_default_light(const Options& options);

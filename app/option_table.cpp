@@ -1,5 +1,7 @@
 #include "app/option_table.h"
 
+#include <algorithm>
+#include <sstream>
 #include <vector>
 
 #include <fmt/format.h>
@@ -18,10 +20,19 @@ std::vector<OptionSpec> join_groups() {
     return table;
 }
 
+std::vector<std::string> lines_of(const std::string& text) {
+    std::istringstream stream(text);
+    std::vector<std::string> lines;
+    for (std::string line; std::getline(stream, line);) lines.push_back(line);
+    return lines;
+}
+
 }  // namespace
 
 std::string OptionSpec::help_text() const {
-    return values == nullptr ? std::string(help) : fmt::format("{}: {}", help, values());
+    if (values == nullptr) return std::string(help);
+    const std::string rest = values();
+    return fmt::format("{}:{}{}", help, rest.starts_with('\n') ? "" : " ", rest);
 }
 
 std::span<const OptionSpec> option_table() {
@@ -34,8 +45,18 @@ void apply_option(const OptionSpec& spec, Options& options, const std::string& t
         spec.parse(options, text);
     } catch (const Error& error) {
         if (error.kind() != ErrorKind::Usage) throw;
-        throw Error(ErrorKind::Usage, fmt::format("--{}: {}", spec.name, error.what()));
+        throw Error(ErrorKind::Usage,
+                    fmt::format("{}{}: {}", spec.flags.empty() ? "" : "--", spec.name, error.what()));
     }
+}
+
+std::vector<std::string> texts_apart(const OptionSpec& spec, const Options& options, const Options& others) {
+    if (spec.print == nullptr) return {};
+    const std::vector<std::string> known = lines_of(spec.print(others));
+    std::vector<std::string> texts;
+    for (const std::string& line : lines_of(spec.print(options)))
+        if (!line.empty() && std::ranges::find(known, line) == known.end()) texts.push_back(line);
+    return texts;
 }
 
 }  // namespace pl

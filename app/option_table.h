@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "app/option_values.h"
 
@@ -37,7 +38,7 @@ struct OptionSpec {
     /// The value of the options as text that parses to it, empty if there is none; null for options that are no part
     /// of a picture. Of an option that is given once for each of several values, these line by line.
     std::string (*print)(const Options&) = nullptr;
-    /// What the help says of the values, behind `help` and a colon; null if `help` says all.
+    /// What the help says of the values, behind `help` and a colon; null if `help` says all. Lines stay lines.
     std::string (*values)() = nullptr;
 
     std::string help_text() const;
@@ -48,5 +49,8 @@ std::span<const OptionSpec> option_table();
 
 /// Parses one option's value; puts its name in front of error messages.
 void apply_option(const OptionSpec& spec, Options& options, const std::string& text);
+
+/// The texts of an option that its `print` has of these options and not of `others`.
+std::vector<std::string> texts_apart(const OptionSpec& spec, const Options& options, const Options& others);
 
 }  // namespace pl

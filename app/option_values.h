@@ -68,7 +68,7 @@ struct PixelWindow {
 struct Options {
     std::string scene;                ///< name or path; empty if none was given
     std::vector<std::string> inputs;  ///< positional arguments of subcommands that do not take one scene
-    LoadSettings load;                ///< choices for opening the scene; knobs in the order given
+    LoadSettings load;                ///< choices for opening the scene
     std::string output;
 
     RenderSettings render;  ///< final only after resolve_options(): camera and size depend on the scene
@@ -91,7 +91,7 @@ struct Options {
     std::vector<std::string> backends;   ///< bench: empty: all that are available
     int seeds = 10;                      ///< bench: runs of each method, back end and scene
     std::uint32_t reference_spp = 4096;  ///< bench: samples per pixel in each half of references that it makes
-    std::string reference_folder;        ///< bench: empty: its own; render: empty: --target-error is one of noise
+    std::string reference_folder;        ///< bench: empty: its own
     std::string gate;                    ///< bench: earlier results to compare the new ones with
     double tolerance_percent = 10.0;     ///< bench: slowdown against the gate's results that passes
     bool effects = false;                ///< bench: compare kernels instead of methods
@@ -118,8 +118,8 @@ struct Options {
     HemisphereDisplay drawn = HemisphereDisplay::Disc;  ///< inspect: of cells, in a PNG
 
     std::string stats_file;
-    std::string diagnostics_file;  ///< render: picture of the places of diagnostics
-    std::string gain_file;         ///< render: where its method gains or loses
+    std::string diagnostics_file;  ///< trace: picture of the places of diagnostics
+    std::string gain_file;         ///< trace: where the method of a picture gains or loses
     std::string log_file;
     bool json = false;
     bool quiet = false;

@@ -181,8 +181,14 @@ void require_complete(Command command, const Options& options) {
     if (command == Command::Replay && options.camera_path.empty()) fail("'replay' needs a camera path: --path FILE");
     if (command == Command::Inspect && options.at.has_value() == options.pixel.has_value())
         fail("'inspect' needs a place: either --at X,Y,Z[,NX,NY,NZ] or --pixel X,Y");
-    if (command == Command::Trace && !(options.pixel && options.samples.has_value() != options.why))
-        fail("'trace' needs a path: --pixel X,Y and --sample N[-M], or --why in place of --sample");
+    const bool is_whole = !options.diagnostics_file.empty() || !options.gain_file.empty();
+    const bool has_path = options.pixel && options.samples.has_value() != options.why;
+    if (is_whole && (options.pixel || options.samples || options.why || !options.output.empty()))
+        fail("'trace': --diagnostics and --gain are about the whole picture: expected no --pixel, --sample, --why, "
+             "-o");
+    if (command == Command::Trace && !is_whole && !has_path)
+        fail("'trace' needs a path: --pixel X,Y and --sample N[-M], or --why in place of --sample; or, for the whole "
+             "picture, --diagnostics FILE or --gain FILE");
     if (command == Command::Trace && options.why && !options.output.empty())
         fail("'trace --why' prints figures and draws no lines: -o FILE goes with --sample N[-M]");
     if (command == Command::Report && options.inputs.size() != 1)

@@ -3,22 +3,17 @@
 
 #include "app/checkpoint_files.h"
 #include "app/commands.h"
-#include "app/diagnostics_file.h"
 #include "app/field_files.h"
-#include "app/gain_file.h"
 #include "app/interrupt.h"
 #include "app/make_backend.h"
 #include "app/open_scene.h"
 #include "app/picture_metadata.h"
 #include "app/picture_target.h"
-#include "app/progress.h"
 #include "app/run_passes.h"
 #include "app/stats_json.h"
 #include "core/base/error.h"
-#include "core/diagnose/find_diagnostics.h"
 #include "core/io/files.h"
 #include "core/io/picture_file.h"
-#include "core/measure/picture_identity.h"
 #include "core/session/shown_range.h"
 
 namespace pl {
@@ -29,59 +24,24 @@ void require_outputs(const Options& options, Console& console) {
     if (!options.stats_file.empty()) require_writable(options.stats_file);
     if (!options.save_field.empty()) require_writable(options.save_field);
     if (!options.checkpoint_file.empty()) require_writable(options.checkpoint_file);
-    if (options.diagnostics_file.empty()) return;
-    image_kind(options.diagnostics_file);
-    require_writable(options.diagnostics_file);
-}
-
-/// Throws Error(Usage) for --diagnostics with a view that traces no paths.
-void require_paths(const Options& options) {
-    if (!options.diagnostics_file.empty() && options.render.view != View::Beauty)
-        throw Error(ErrorKind::Usage,
-                    fmt::format("--diagnostics: expected --view beauty, got '{}', which has no paths",
-                                info_of(options.render.view).name));
-}
-
-/// Empty without --target-error. Throws Error(Input) if the reference of --reference is missing.
-std::optional<bench::ErrorTarget> make_target(const Session& session, const Options& options) {
-    if (!options.target_error) return std::nullopt;
-    std::shared_ptr<const bench::Reference> reference;
-    if (!options.reference_folder.empty())
-        reference = std::make_shared<const bench::Reference>(
-            bench::ReferenceStore(options.reference_folder)
-                .require(bench::content_of(session.scene(), session.settings())));
-    return bench::ErrorTarget(*options.target_error, std::move(reference));
 }
 
 /// ", noise 0.0098 (target 0.01)"; empty without a target.
 std::string target_text(const bench::ErrorTarget* target) {
     if (target == nullptr) return "";
-    return fmt::format(", {} {} (target {:.3g})", target->word(),
+    return fmt::format(", noise {} (target {:.3g})",
                        target->measured() ? fmt::format("{:.3g}", *target->measured()) : "unknown", target->target());
 }
 
 /// Throws Error(Threshold) if another limit ended the rendering before the target was met.
 void require_low_error(bench::ErrorTarget* target, const RunOutcome& outcome) {
     if (target == nullptr || target->is_low_enough()) return;
-    throw Error(ErrorKind::Threshold,
-                fmt::format("--target-error: expected {} of at most {:.3g} as relMSE, got {} when --{} was reached",
-                            target->word(), target->target(),
-                            target->measured() ? fmt::format("{:.3g}", *target->measured()) : "none that is known",
-                            name_of(outcome.ended_by)));
-}
-
-/// Writes the file of --diagnostics; after an interruption, with the findings until then.
-diagnose::DiagnosticsMap write_diagnostics(diagnose::DiagnosticsInput source, const Snapshot& snapshot,
-                                           const Options& options, const ImageMetadata& metadata,
-                                           const InterruptGuard& interrupt, Console& console) {
-    ProgressDisplay progress(console, !options.no_progress && !options.quiet);
-    diagnose::DiagnosticsMap found =
-        diagnose::find_diagnostics(std::move(source), options.threads, interrupt.flag(), [&](double share) {
-            progress.show({.activity = "tracing again", .share = share, .spp = snapshot.passes, .detail = ""});
-        });
-    save_diagnostics(options.diagnostics_file, snapshot, options.display, found, metadata);
-    console.remark(fmt::format("{}: {}\n", options.diagnostics_file, summary_of(found)));
-    return found;
+    throw Error(
+        ErrorKind::Threshold,
+        fmt::format("--target-error: expected noise of at most {:.3g} as relMSE, got {} when --{} was reached",
+                    target->target(),
+                    target->measured() ? fmt::format("{:.3g}", *target->measured()) : "none that is known",
+                    name_of(outcome.ended_by)));
 }
 
 void report(const Snapshot& snapshot, const Options& options, const Json& stats, bool interrupted,
@@ -136,8 +96,6 @@ int run_render(const CommandLine& line, Console& console) {
     FieldFiles fields(line.options);
     CheckpointFiles checkpoints(line.options, console);
     const Options options = resolve_options(line, *loaded.scene, fields.loaded());
-    require_paths(options);
-    require_gain(options);
     Session session(make_backend(options.backend, options.threads), loaded.scene, options.render,
                     loaded.load_seconds + fields.load_seconds());
     fields.hand_over(session, options, console);
@@ -146,27 +104,19 @@ int run_render(const CommandLine& line, Console& console) {
     const std::string command = command_text(Command::Render, options, scene_defaults(options.scene, *loaded.scene));
     const FilmSlot slot = slot_of(options.render);
 
-    std::optional<bench::ErrorTarget> target = make_target(session, options);
+    std::optional<bench::ErrorTarget> target;
+    if (options.target_error) target.emplace(*options.target_error);
     bench::ErrorTarget* const aim = target ? &*target : nullptr;
     const RunOutcome outcome = run_saved(session, options, interrupt, console, {aim, &checkpoints});
     if (aim != nullptr) aim->measure_last(session, slot);
     const Snapshot snapshot = session.snapshot(slot);
-    Json stats = stats_json(session, snapshot, options, outcome, aim);
+    const Json stats = stats_json(session, snapshot, options, outcome, aim);
     const ImageMetadata metadata = metadata_of(session, snapshot, stats, command, outcome.interrupted());
     write_picture(options.output, snapshot, options.display, metadata, console);
-    bool is_complete = true;  // the files beside the picture
-    if (!options.diagnostics_file.empty()) {
-        const diagnose::DiagnosticsMap found = write_diagnostics(diagnose::diagnostics_input(session, slot), snapshot,
-                                                                 options, metadata, interrupt, console);
-        stats["diagnostics"] = diagnostics_json(snapshot, &found);
-        is_complete = found.is_complete;
-    }
     if (!options.stats_file.empty()) write_text_file_atomic(options.stats_file, stats.dump(2) + "\n");
     fields.save(session, options, console);
-    if (!options.gain_file.empty() && !outcome.interrupted())
-        is_complete &= write_gain(session, snapshot, options, interrupt, console);
     report(snapshot, options, stats, outcome.interrupted(), aim, checkpoints, console);
-    if (outcome.interrupted() || !is_complete) return kExitInterrupted;
+    if (outcome.interrupted()) return kExitInterrupted;
     require_low_error(aim, outcome);
     return 0;
 }

@@ -67,7 +67,7 @@ private:
         const CameraDescription camera = path_.frame(index, frames_);
         session_.apply(EditCamera{camera});
         std::optional<bench::ErrorTarget> target;
-        if (options_.target_error) target.emplace(*options_.target_error, nullptr);
+        if (options_.target_error) target.emplace(*options_.target_error);
         bench::ErrorTarget* const aim = target ? &*target : nullptr;
         const RunOutcome outcome =
             run_passes(session_, options_, interrupt_, console_, Until::Rendered, {.target = aim});

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "app/option_parsers.h"
 #include "app/options.h"
@@ -83,16 +83,18 @@ std::string words(const OptionSpec& spec, const std::string& value) {
 
 /// Options given along with a loaded field must agree with it.
 void adopt_field(const CommandLine& line, const LearnedField& field, Options& options) {
-    const Options asked = options;
     options.render.method = field.method;
     options.render.field = field.settings;
     for (const auto& [spec, text] : line.given) {
-        if (spec->print == nullptr || spec->print(asked) == spec->print(options)) continue;
-        const std::string own = spec->print(options);
+        Options asked = options;
+        apply_option(*spec, asked, text);
+        if (texts_apart(*spec, asked, options).empty()) continue;
+        const std::vector<std::string> own = texts_apart(*spec, options, asked);
         throw Error(ErrorKind::Usage,
                     fmt::format("{}: the field in {} was learned {}: expected that, or nothing", words(*spec, text),
                                 line.options.load_field,
-                                own.empty() ? fmt::format("without --{}", spec->name) : "with " + words(*spec, own)));
+                                own.empty() ? fmt::format("without --{}", spec->name)
+                                            : fmt::format("with --{} {}", spec->name, fmt::join(own, ","))));
     }
 }
 
@@ -133,7 +135,7 @@ void settle_representation(Options& options) {
                     fmt::format("--field {}: expected --field table with --method {}, whose probes fill tables", name,
                                 info_of(options.render.method).name));
     if (!has_target(field.representation, field.learning.target))
-        throw Error(ErrorKind::Usage, fmt::format("--learn-target {}: expected --field table with it, got --field {}",
+        throw Error(ErrorKind::Usage, fmt::format("--learn target={}: expected --field table with it, got --field {}",
                                                   name_of(field.learning.target), name));
     if (has_tables(field.representation)) return;
     const auto is_cuda = [](const std::string& backend) { return backend == "cuda"; };
@@ -169,8 +171,6 @@ void settle_target(const CommandLine& line, Options& options) {
         throw Error(ErrorKind::Usage, fmt::format("--target-error: expected --view {}, whose error is known, got {}",
                                                   info_of(View::Beauty).name, info_of(options.render.view).name));
     }
-    if (renders && !options.reference_folder.empty() && !options.target_error)
-        throw Error(ErrorKind::Usage, "--reference: expected --target-error X with it");
 }
 
 /// Limits of a scene's settings, made for a good picture, are no limits of a measurement.
@@ -239,12 +239,10 @@ Options scene_defaults(const std::string& scene_name, const SceneDescription& sc
 std::string command_text(Command command, const Options& options, const Options& defaults) {
     std::string text = fmt::format("pathlight {} {}", command_name(command), shell_word(options.scene));
     for (const OptionSpec& spec : option_table()) {
-        if (spec.print == nullptr || !spec.commands.has(command)) continue;
-        const std::string value = spec.print(options);
-        if (value.empty() || value == spec.print(defaults)) continue;
+        if (!spec.commands.has(command)) continue;
         const std::string name = spec.name == "output" ? "-o" : "--" + std::string(spec.name);
-        std::istringstream lines(value);
-        for (std::string line; std::getline(lines, line);) text += fmt::format(" {} {}", name, shell_word(line));
+        for (const std::string& value : texts_apart(spec, options, defaults))
+            text += fmt::format(" {} {}", name, shell_word(value));
     }
     return text;
 }

@@ -30,7 +30,7 @@ Json target_json(const bench::ErrorTarget* target) {
     if (target == nullptr) return nullptr;
     return {{"relmse", target->target()},
             {"measured", target->measured() ? Json(*target->measured()) : Json(nullptr)},
-            {"of", target->word()}};
+            {"of", "noise"}};
 }
 
 Json network_json(const NetworkStatus& network) {
@@ -108,12 +108,11 @@ Json stats_json(const Session& session, const Snapshot& snapshot, const Options&
                {"target_error", target_json(target)}};
     add_counters(stats, snapshot.counters);
     if (const Communicator* const ranks = shared_ranks()) add_traffic(stats, *ranks);
-    stats["diagnostics"] = diagnostics_json(snapshot, nullptr);
+    stats["diagnostics"] = diagnostics_json(snapshot);
     stats["mean_radiance"] = mean_radiance(snapshot);
     stats["field"] = field_json(snapshot.field);
     stats["guiding"] = guiding_json(snapshot.guiding);
     stats["effects_needed"] = effect_names(needed);
-    if (settings.forced_effects != FeatureSet{}) stats["effects_forced"] = effect_names(settings.forced_effects);
     stats["effects_compiled"] = effect_names(session.served_kernel(snapshot.slot).compiled);
     stats["kernel"] = snapshot.kernel;
     return stats;

@@ -1,11 +1,16 @@
-// `pathlight trace`: one path of a picture, every vertex with its densities and weights; several of one pixel; or its noise.
+// `pathlight trace`: one path of a picture, every vertex with its densities and weights; several of one pixel; its noise; or what is wrong
+// with the whole picture, and where it gains.
 #include "app/commands.h"
+#include "app/diagnostics_file.h"
 #include "app/field_files.h"
+#include "app/gain_file.h"
 #include "app/interrupt.h"
 #include "app/make_backend.h"
 #include "app/open_scene.h"
+#include "app/picture_metadata.h"
 #include "app/run_passes.h"
 #include "app/scene_picture.h"
+#include "app/stats_json.h"
 #include "app/trace_noise.h"
 #include "app/trace_report.h"
 #include "core/base/error.h"
@@ -53,23 +58,48 @@ std::vector<diagnose::PathRecord> trace_samples(Session& session, const Options&
     return paths;
 }
 
-/// Before any work is done for it.
-void require_picture(const std::string& output) {
-    if (output.empty()) return;
+/// Before any work is done for them.
+void require_outputs(const Options& options) {
+    if (!options.diagnostics_file.empty()) {
+        image_kind(options.diagnostics_file);
+        require_writable(options.diagnostics_file);
+    }
+    if (options.output.empty()) return;
     require_viewer_code("-o");
-    if (image_kind(output) != ImageKind::Png) throw Error(ErrorKind::Usage, output + ": lines are drawn into a .png");
-    require_writable(output);
+    if (image_kind(options.output) != ImageKind::Png)
+        throw Error(ErrorKind::Usage, options.output + ": lines are drawn into a .png");
+    require_writable(options.output);
+}
+
+/// Renders the whole picture, then writes where something is wrong in it, and where it gains. Returns the exit code.
+int trace_picture(Session& session, const Options& options, const InterruptGuard& interrupt, Console& console) {
+    const RunOutcome outcome = run_passes(session, options, interrupt, console);
+    const Snapshot snapshot = session.snapshot(slot_of(options.render));
+    bool is_complete = !outcome.interrupted();
+    if (!options.diagnostics_file.empty()) {
+        const std::string command =
+            command_text(Command::Render, options, scene_defaults(options.scene, session.scene()));
+        is_complete &=
+            write_diagnostics(session, snapshot, options,
+                              metadata_of(session, snapshot, stats_json(session, snapshot, options, outcome), command,
+                                          outcome.interrupted()),
+                              interrupt, console);
+    }
+    if (is_complete && !options.gain_file.empty())
+        is_complete = write_gain(session, snapshot, options, interrupt, console);
+    return is_complete ? 0 : kExitInterrupted;
 }
 
 }  // namespace
 
 int run_trace(const CommandLine& line, Console& console) {
     const InterruptGuard interrupt;
-    require_picture(line.options.output);
+    require_outputs(line.options);
     const LoadedScene loaded = open_scene(line.options.scene, line.options.load, console);
     FieldFiles fields(line.options);
     const Options options = resolve_options(line, *loaded.scene, fields.loaded());
     require_pixel_inside(options);
+    require_gain(options);
     RenderSettings settings = options.render;
     if (options.why)
         settings.guiding = GuidingRule::Always;  // the field is wanted, not the picture: every pass trains it
@@ -77,6 +107,7 @@ int run_trace(const CommandLine& line, Console& console) {
                     loaded.load_seconds + fields.load_seconds());
     fields.hand_over(session, options, console);
     if (options.why) return trace_noise(session, options, interrupt, console);
+    if (!options.pixel) return trace_picture(session, options, interrupt, console);
 
     const std::vector<diagnose::PathRecord> paths = trace_samples(session, options, interrupt, console);
     if (paths.empty()) {

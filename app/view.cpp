@@ -11,6 +11,8 @@
 #include "app/field_files.h"
 #include "app/make_backend.h"
 #include "app/open_scene.h"
+#include "app/parse_values.h"
+#include "core/io/files.h"
 #include "core/io/load_scene.h"
 #include "cuda/availability.h"
 #include "ui/viewer.h"
@@ -23,15 +25,15 @@ std::unique_ptr<RenderBackend> make_beside_window(const std::string& name, int t
     return make_own_backend(name, threads > 0 ? threads : std::max(1, usable_share() - 1));
 }
 
-/// Vertical axis, camera, parameters, materials and their reading, by the command line, belong to the scene that it names, not to scenes
-/// opened later.
+/// Vertical axis, camera, parameters and materials, by the command line, belong to the scene that it names, not to scenes opened later. Of
+/// its parameters those that are knobs come with the request.
 LoadSettings load_settings_of(const ui::SceneRequest& scene, const Options& opened) {
-    LoadSettings settings{.knobs = scene.knobs, .default_light = opened.load.default_light};
+    LoadSettings settings{.default_light = opened.load.default_light};
+    for (const auto& [name, value] : scene.knobs) settings.parameters.emplace_back(name, print_float(value));
     if (scene.name == opened.scene) {
         settings.up_axis = opened.load.up_axis;
         settings.camera = opened.load.camera;
-        settings.map_kd = opened.load.map_kd;
-        settings.parameters = opened.load.parameters;
+        if (suffix_of(scene.name) == ".xml") settings.parameters = opened.load.parameters;
         settings.materials = opened.load.materials;
     }
     return settings;

@@ -1,7 +1,5 @@
 #include "app/options/groups.h"
 
-#include "core/io/camera_file.h"
-
 namespace pl {
 namespace {
 
@@ -11,15 +9,15 @@ void parse_frames(Options& options, const std::string& text) {
 
 // clang-format off
 constexpr auto kCameraOptions = std::to_array<OptionSpec>({
-    {.name = "camera", .flags = "--camera", .value = "FILE", .group = kCamera,
-     .help = "JSON file {\"eye\": [x,y,z], \"target\": [x,y,z], \"up\": [x,y,z], \"fov_deg\": vertical, "
-             "\"aperture_radius\": r, \"focus_distance\": d, \"shift_x\": x, \"shift_y\": y}; overrides the scene's camera, and the "
-             "options below override both",
-     .is_expert = true, .commands = kPaths, .parse = [](Options& o, Text text) { o.camera = load_camera_file(text); }},
-    {.name = "scene-camera", .flags = "--scene-camera", .value = "NAME", .group = kCamera,
+    {.name = "camera", .flags = "--camera", .value = "FILE|NAME|JSON", .group = kCamera,
+     .help = "Parts of the camera, of a .json file or as its text: {\"eye\": [x,y,z], \"target\": [x,y,z], \"up\": [x,y,z], "
+             "\"fov_deg\": vertical, \"aperture_radius\": r, \"focus_distance\": d, \"shift_x\": x, \"shift_y\": y}, where the shift "
+             "moves the picture in its heights; or a camera that the scene's file lists, by its name or its number from 1, see "
+             "'info'. May be given several times; the options below go over it",
+     .commands = kPaths, .repeatable = true, .parse = parse_camera, .print = print_camera},
+    {.name = "camera", .flags = "--camera", .value = "NAME", .group = kCamera,
      .help = "Camera that the scene's file lists, by its name or its number from 1, see 'info' (default: the first)",
-     .commands = kOpening, .parse = [](Options& o, Text text) { o.load.camera = text; },
-     .print = [](const Options& o) { return o.load.camera; }},
+     .commands = CommandSet(Command::Info, Command::Convert), .parse = [](Options& o, Text text) { o.load.camera = text; }},
     {.name = "path", .flags = "--path", .value = "FILE", .group = kCamera,
      .help = "JSON file {\"schema\": \"pathlight.cameras/1\", \"cameras\": [{\"eye\": ...}, ...]}, such as the viewer's "
              "bookmarks: the camera moves through them, in equal times from each to the next",
@@ -49,21 +47,6 @@ constexpr auto kCameraOptions = std::to_array<OptionSpec>({
     {.name = "fov", .flags = "--fov", .value = "DEG", .group = kCamera, .help = "Full vertical angle of view",
      .commands = kPaths, .parse = parse_fov,
      .print = [](const Options& o) { return print_float(o.render.camera.fov_deg); }},
-    {.name = "aperture", .flags = "--aperture", .value = "R", .group = kCamera,
-     .help = "Radius of the lens; 0 is a pinhole, which is sharp everywhere",
-     .is_expert = true, .commands = kPaths, .parse = parse_aperture,
-     .print = [](const Options& o) { return print_float(o.render.camera.aperture_radius); }},
-    {.name = "focus", .flags = "--focus", .value = "D", .group = kCamera,
-     .help = "Distance of the plane in focus, along the view",
-     .is_expert = true, .commands = kPaths, .parse = parse_focus,
-     .print = [](const Options& o) { return print_float(o.render.camera.focus_distance); }},
-    {.name = "shift-x", .flags = "--shift-x", .value = "X", .group = kCamera,
-     .help = "Shift of the picture to the right, in its heights, with the camera in place, as of an architect's lens",
-     .is_expert = true, .commands = kPaths, .parse = [](Options& o, Text text) { o.camera.shift_x = parse_float(text); },
-     .print = [](const Options& o) { return print_float(o.render.camera.shift.x); }},
-    {.name = "shift-y", .flags = "--shift-y", .value = "Y", .group = kCamera, .help = "The same upwards",
-     .is_expert = true, .commands = kPaths, .parse = [](Options& o, Text text) { o.camera.shift_y = parse_float(text); },
-     .print = [](const Options& o) { return print_float(o.render.camera.shift.y); }},
 });
 // clang-format on
 

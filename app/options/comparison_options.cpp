@@ -28,6 +28,14 @@ constexpr auto kComparisonOptions = std::to_array<OptionSpec>({
      .help = "Paths by each method for --why, at least 256 (default 4096)",
      .is_expert = true, .commands = CommandSet(Command::Trace),
      .parse = [](Options& o, Text text) { o.why_samples = static_cast<std::uint32_t>(parse_whole(text, 256, 100000000)); }},
+    {.name = "diagnostics", .flags = "--diagnostics", .value = "FILE", .group = kPlace,
+     .help = "Locate invalid samples, escaped paths, lookup misses and clamped training samples of the whole picture by tracing "
+             "its paths again: .png marks their pixels in the picture, .exr and .pfm hold their counts per pixel; --json has numbers",
+     .commands = CommandSet(Command::Trace), .parse = parse_text<&Options::diagnostics_file>},
+    {.name = "gain", .flags = "--gain", .value = "FILE", .group = kPlace,
+     .help = "Where a guided method gains or loses against default, tile by tile of the whole picture: renders default for the "
+             "same time, and compares their noise. .json: numbers; .png: the picture with a mark for each tile",
+     .commands = CommandSet(Command::Trace), .parse = parse_text<&Options::gain_file>},
     {.name = "truth", .flags = "--truth", .value = "", .group = kPlace,
      .help = "Also the light that reaches the volume, by paths of default from there: beside the learned radiance, with "
              "the divergence of the learned densities from it",

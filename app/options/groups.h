@@ -26,6 +26,8 @@ std::span<const OptionSpec> picture_options();
 std::span<const OptionSpec> limit_options();
 std::span<const OptionSpec> camera_options();
 std::span<const OptionSpec> field_options();
+/// What `--learn` sets, each as an option whose name stands before the "=".
+std::span<const OptionSpec> learn_values();
 /// Messages and the window.
 std::span<const OptionSpec> program_options();
 

@@ -23,7 +23,7 @@ constexpr auto kLimitOptions = std::to_array<OptionSpec>({
      .commands = CommandSet(Command::Replay), .parse = parse_time_limit,
      .print = [](const Options& o) { return o.time_limit_seconds ? print_real(*o.time_limit_seconds) : ""; }},
     {.name = "spp", .flags = "--spp,--samples", .value = "N", .group = kStop,
-     .help = "With --why: passes that train the field before (default 64)",
+     .help = "With --why: passes that train the field before; with --diagnostics and --gain: samples per pixel (default 64)",
      .commands = CommandSet(Command::Trace), .parse = parse_spp},
     {.name = "spp", .flags = "--spp,--samples", .value = "N", .group = kStop,
      .help = "Samples per pixel in each half (default 4096 unless a time limit is given)",
@@ -42,9 +42,8 @@ constexpr auto kLimitOptions = std::to_array<OptionSpec>({
      .in_scene_files = true, .parse = parse_time_limit,
      .print = [](const Options& o) { return o.time_limit_seconds ? print_real(*o.time_limit_seconds) : ""; }},
     {.name = "target-error", .flags = "--target-error", .value = "X", .group = kStop,
-     .help = "A relMSE: of the error against the reference in the folder --reference, or without one of the "
-             "picture's own noise, estimated from two halves of its samples and trusted from 16 samples per "
-             "pixel on. Exit with 5 if another limit is reached first",
+     .help = "A relMSE of the picture's own noise, estimated from two halves of its samples and trusted from 16 samples "
+             "per pixel on. Exit with 5 if another limit is reached first",
      .commands = CommandSet(Command::Render), .in_scene_files = true, .parse = parse_target_error,
      .print = [](const Options& o) { return o.target_error ? print_real(*o.target_error) : ""; }},
     {.name = "target-error", .flags = "--target-error", .value = "X", .group = kStop,
@@ -52,10 +51,6 @@ constexpr auto kLimitOptions = std::to_array<OptionSpec>({
              "samples per pixel on. Exit with 5 if pictures reach another limit first",
      .commands = CommandSet(Command::Replay), .parse = parse_target_error,
      .print = [](const Options& o) { return o.target_error ? print_real(*o.target_error) : ""; }},
-    {.name = "reference", .flags = "--reference", .value = "DIR", .group = kStop,
-     .help = "Folder of references for --target-error; a missing one is an error",
-     .commands = CommandSet(Command::Render), .parse = parse_text<&Options::reference_folder>,
-     .print = [](const Options& o) { return o.reference_folder; }},
     {.name = "target-error", .flags = "--target-error", .value = "X", .group = kHidden, .help = "",
      .commands = CommandSet(Command::View, Command::Inspect),
      .parse = [](Options&, Text) { fail_not_yet("stop by --spp or --time-limit"); }},

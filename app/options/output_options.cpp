@@ -45,15 +45,6 @@ constexpr auto kOutputOptions = std::to_array<OptionSpec>({
     {.name = "resume", .flags = "--resume", .value = "FILE", .group = kOutput,
      .help = "Go on from a checkpoint of the same scene, settings and back end; threads, processes and limits may differ",
      .is_expert = true, .commands = CommandSet(Command::Render), .parse = parse_text<&Options::resume_file>},
-    {.name = "diagnostics", .flags = "--diagnostics", .value = "FILE", .group = kOutput,
-     .help = "Locate invalid samples, escaped paths, lookup misses and clamped training samples by tracing the "
-             "paths again: .png marks their pixels in the picture, .exr and .pfm hold their counts per pixel; "
-             "--stats has both as numbers",
-     .is_expert = true, .commands = CommandSet(Command::Render), .parse = parse_text<&Options::diagnostics_file>},
-    {.name = "gain", .flags = "--gain", .value = "FILE", .group = kOutput,
-     .help = "Where a guided method gains or loses against default, tile by tile: renders default for the same time "
-             "after the picture, and compares their noise. .json: numbers; .png: the picture with a mark for each tile",
-     .is_expert = true, .commands = CommandSet(Command::Render), .parse = parse_text<&Options::gain_file>},
 });
 // clang-format on
 

@@ -1,9 +1,6 @@
 #include "app/options/groups.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
-
-#include "core/scene/needed_effects.h"
 
 namespace pl {
 namespace {
@@ -67,25 +64,14 @@ constexpr auto kPictureOptions = std::to_array<OptionSpec>({
     {.name = "guiding", .flags = "--guiding", .value = "NAME", .group = kPicture,
      .help = "Guided methods with light samples",
      .is_expert = true, .commands = CommandSet(Command::View, Command::Render, Command::Replay, Command::Trace), .in_scene_files = true}),
-    {.name = "force-effects", .flags = "--force-effects", .value = "NAME,..", .group = kPicture,
-     .help = "Use a kernel compiled for these effects, too, although the scene lacks them: it is slower, and "
-             "the picture stays the same to the bit. Names as 'info' prints them, or all",
-     .is_expert = true, .commands = kWithScene, .parse = parse_forced_effects,
-     .print = [](const Options& o) { return fmt::format("{}", fmt::join(effect_names(o.render.forced_effects), ",")); }},
-    {.name = "knob", .flags = "--knob", .value = "NAME=VALUE", .group = kPicture,
-     .help = "Set a knob of the scene; may be given several times ('info' lists them)",
-     .commands = kOpening, .repeatable = true, .parse = parse_knobs, .print = print_knobs},
     {.name = "define", .flags = "-D,--define", .value = "NAME=VALUE", .group = kPicture,
-     .help = "Give a parameter of a Mitsuba scene, its $NAME, this value; may be given several times",
-     .is_expert = true, .commands = kOpening, .repeatable = true, .parse = parse_parameter, .print = print_parameters},
+     .help = "Give a knob of the scene ('info' lists them), or the $NAME of a Mitsuba scene, this value; may be given several times",
+     .commands = kOpening, .repeatable = true, .parse = parse_parameter, .print = print_parameters},
     {.name = "materials", .flags = "--materials", .value = "FILE", .group = kPicture,
      .help = "JSON file with values of materials, as the viewer writes it when a command is copied; they replace those "
              "of the scene",
      .is_expert = true, .commands = kOpening, .parse = [](Options& o, Text text) { o.load.materials = text; },
      .print = [](const Options& o) { return o.load.materials.string(); }},
-    choosing<&Options::load, &LoadSettings::map_kd>(
-    {.name = "map-kd", .flags = "--map-kd", .value = "NAME", .group = kPicture,
-     .help = "Image of a material of an MTL file", .is_expert = true, .commands = kOpening}),
     {.name = "default-light", .flags = "--default-light", .value = "on|off", .group = kPicture,
      .help = "Light a scene that has no light with a sky and a soft sun (default on); no scene with a light changes",
      .is_expert = true, .commands = kOpening, .in_scene_files = true,

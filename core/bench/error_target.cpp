@@ -10,8 +10,7 @@ namespace pl::bench {
 
 bool ErrorTarget::is_met(const Session& session, FilmSlot slot) {
     const std::uint32_t passes = session.passes(slot);
-    const std::uint32_t fewest = has_reference() ? 1 : kFewestSamples;
-    if (passes < std::max(next_passes_, fewest) || !budget_.allows(charged_seconds(session.clocks(slot))))
+    if (passes < std::max(next_passes_, kFewestSamples) || !budget_.allows(charged_seconds(session.clocks(slot))))
         return false;
     next_passes_ = passes + std::max(passes / 10, 1u);
     measure(session, slot);
@@ -28,14 +27,10 @@ double ErrorTarget::share_done() const {
 
 void ErrorTarget::measure(const Session& session, FilmSlot slot) {
     const Stopwatch watch;
-    const int threads = measuring_threads(session);
     measured_ = std::nullopt;
     measured_passes_ = session.passes(slot);
-    if (reference_ != nullptr) {
-        const Metrics metrics = measure_error(session.snapshot(slot).pixels, reference_->pixels(), threads);
-        if (metrics.pixels > 0) measured_ = metrics.relmse;
-    } else if (const Snapshot snapshot = session.snapshot_with_halves(slot); snapshot.halves.are_both_there()) {
-        const Noise noise = estimate_noise(halves_of(snapshot.halves), snapshot.width, threads);
+    if (const Snapshot snapshot = session.snapshot_with_halves(slot); snapshot.halves.are_both_there()) {
+        const Noise noise = estimate_noise(halves_of(snapshot.halves), snapshot.width, measuring_threads(session));
         if (noise.pixels > 0) measured_ = noise.relmse;
     }
     budget_.spend(watch.seconds());

@@ -1,10 +1,9 @@
-// Rendering until a picture meets a target: by its error against a reference, or without one by its own noise.
+// Rendering until the noise of a picture meets a target.
 #pragma once
 
-#include <memory>
+#include <cstdint>
 #include <optional>
 
-#include "core/bench/reference_store.h"
 #include "core/measure/measure_budget.h"
 #include "core/session/session.h"
 
@@ -13,10 +12,8 @@ namespace pl::bench {
 /// Measures a picture from time to time; the measurements stay within their share of the charged time.
 class ErrorTarget {
 public:
-    /// `target` is a relMSE: of the error against the reference, or, if that is null, of the noise as estimated from the
-    /// picture's two halves (Noise::relmse).
-    ErrorTarget(double target, std::shared_ptr<const Reference> reference)
-        : target_(target), reference_(std::move(reference)) {}
+    /// `target` is the relMSE of the noise as estimated from the picture's two halves (Noise::relmse).
+    explicit ErrorTarget(double target) : target_(target) {}
 
     /// To be called after each pass. Noise is not measured below kFewestSamples: a picture whose paths have not yet
     /// found the light is black and without noise.
@@ -29,9 +26,6 @@ public:
     double target() const { return target_; }
     /// The last measurement; empty if there is none, if the film lacks a second half or has no finite pixel.
     std::optional<double> measured() const { return measured_; }
-    bool has_reference() const { return reference_ != nullptr; }
-    /// "noise" or "error".
-    const char* word() const { return has_reference() ? "error" : "noise"; }
     /// Share of the time to the target that has passed, if errors fall as 1 / samples.
     double share_done() const;
 
@@ -41,7 +35,6 @@ private:
     void measure(const Session& session, FilmSlot slot);
 
     double target_;
-    std::shared_ptr<const Reference> reference_;
     MeasureBudget budget_;
     std::optional<double> measured_;
     std::uint32_t measured_passes_ = 0;

@@ -10,34 +10,38 @@ namespace pl {
 
 namespace {
 
-/// The camera in the object at `pointer`, which may have members of `others`, too. Throws Error(Input).
-CameraChoice read_camera(const JsonDocument& file, const std::string& pointer,
-                         const std::vector<std::string>& others = {}) {
+/// Replaces the parts of a camera that the object at `pointer` has, which may have members of `others`, too. Throws Error(Input).
+void read_parts(const JsonDocument& file, const std::string& pointer, CameraChoice& camera,
+                const std::vector<std::string>& others = {}) {
     std::vector<std::string> known(kCameraMembers.begin(), kCameraMembers.end());
     known.insert(known.end(), others.begin(), others.end());
     if (file.object(pointer, known) == nullptr) file.fail(pointer, "expected a camera { ... }");
-    const CameraChoice camera{.eye = file.point(pointer + "/eye"),
-                              .target = file.point(pointer + "/target"),
-                              .up = file.vector(pointer + "/up"),
-                              .fov_deg = file.number(pointer + "/fov_deg"),
-                              .aperture_radius = file.number(pointer + "/aperture_radius"),
-                              .focus_distance = file.number(pointer + "/focus_distance"),
-                              .shift_x = file.number(pointer + "/shift_x"),
-                              .shift_y = file.number(pointer + "/shift_y"),
-                              .is_mirrored = file.boolean(pointer + "/mirrored")};
+    const auto replace = [](auto& part, const auto& given) {
+        if (given) part = given;
+    };
+    replace(camera.eye, file.point(pointer + "/eye"));
+    replace(camera.target, file.point(pointer + "/target"));
+    replace(camera.up, file.vector(pointer + "/up"));
+    replace(camera.fov_deg, file.number(pointer + "/fov_deg"));
+    replace(camera.aperture_radius, file.number(pointer + "/aperture_radius"));
+    replace(camera.focus_distance, file.number(pointer + "/focus_distance"));
+    replace(camera.shift_x, file.number(pointer + "/shift_x"));
+    replace(camera.shift_y, file.number(pointer + "/shift_y"));
+    replace(camera.is_mirrored, file.boolean(pointer + "/mirrored"));
     if (camera.fov_deg && !(*camera.fov_deg > 0.0f && *camera.fov_deg < 180.0f))
         file.fail(pointer + "/fov_deg", "expected an angle between 0 and 180 degrees");
     if (camera.aperture_radius && !(*camera.aperture_radius >= 0.0f))
         file.fail(pointer + "/aperture_radius", "expected a number of at least 0");
     if (camera.focus_distance && !(*camera.focus_distance > 0.0f))
         file.fail(pointer + "/focus_distance", "expected a number above 0");
-    return camera;
 }
 
-/// read_camera() with the missing members of `standard`. Throws Error(Input), also for a camera that looks nowhere.
+/// read_parts() over `standard`. Throws Error(Input), also for a camera that looks nowhere.
 CameraDescription read_whole_camera(const JsonDocument& file, const std::string& pointer,
                                     const CameraDescription& standard, const std::vector<std::string>& others = {}) {
-    const CameraDescription camera = replaced(standard, read_camera(file, pointer, others));
+    CameraChoice given;
+    read_parts(file, pointer, given, others);
+    const CameraDescription camera = replaced(standard, given);
     if (camera.eye == camera.target)
         file.fail(pointer + "/eye", "expected an eye away from the target, got the same point for both");
     if (camera.up == glm::vec3(0.0f)) file.fail(pointer + "/up", "expected a direction, got [0, 0, 0]");
@@ -82,9 +86,7 @@ Json camera_json(const CameraDescription& camera) {
     return json;
 }
 
-CameraChoice load_camera_file(const std::filesystem::path& path) {
-    return read_camera(JsonDocument(read_text_file(path), path), "");
-}
+void read_camera_parts(const JsonDocument& file, CameraChoice& camera) { read_parts(file, "", camera); }
 
 std::vector<CameraDescription> load_cameras(const std::filesystem::path& path, const CameraDescription& standard) {
     return read_cameras(JsonDocument(read_text_file(path), path), standard);

@@ -1,4 +1,4 @@
-// Cameras in JSON files: one of --camera, or those of a path in their order.
+// Cameras in JSON: parts of one for --camera, or those of a path in their order.
 #pragma once
 
 #include <array>
@@ -38,8 +38,8 @@ CameraDescription replaced(CameraDescription camera, const CameraChoice& choice)
 /// "shift_x" and "shift_y" if the picture is shifted: in its heights, right and up, and "mirrored": true if right and left are swapped.
 Json camera_json(const CameraDescription& camera);
 
-/// Reads the members of camera_json(); every one may be missing. Throws Error(Input) with file and line.
-CameraChoice load_camera_file(const std::filesystem::path& path);
+/// Replaces the parts of a camera that a file of members of camera_json() has. Throws Error(Input) with file and line.
+void read_camera_parts(const JsonDocument& file, CameraChoice& camera);
 
 inline constexpr const char* kCamerasSchema = "pathlight.cameras/1";
 

@@ -12,7 +12,7 @@
 namespace pl {
 namespace {
 
-constexpr SealedKind kCheckpointKind{.magic = "PLCHECK\n", .version = 7, .title = "checkpoint", .word = "checkpoint"};
+constexpr SealedKind kCheckpointKind{.magic = "PLCHECK\n", .version = 8, .title = "checkpoint", .word = "checkpoint"};
 
 /// transfer(), also for the kinds of values that only checkpoints hold. Each works for writing, with constant values, and for
 /// reading.
@@ -75,8 +75,7 @@ public:
     template <class Film>
     void progress(Film& film) {
         auto& origin = film.origin;
-        all(origin.number, origin.generation, origin.warm, origin.place_seconds, origin.precompute_seconds,
-            origin.forced.bits);
+        all(origin.number, origin.generation, origin.warm, origin.place_seconds, origin.precompute_seconds);
         all(film.is_allocated, film.passes, film.next_pixel, film.render_seconds, film.learn_seconds);
         counters(film.counters);
         GuidingChoice::each_value(film.guiding, [this](auto& value) { one(value); });

@@ -30,10 +30,11 @@ std::size_t find_camera(const std::string& asked, const SceneDescription& scene)
         if (scene.cameras[i].name == asked) return i;
     for (std::size_t i = 0; i < scene.cameras.size(); ++i)
         if (std::to_string(i + 1) == asked) return i;
-    throw Error(ErrorKind::Usage,
-                fmt::format("--scene-camera {}: expected one of the cameras that {} lists, got none of "
-                            "them: {}",
-                            asked, scene.source.string(), camera_names(scene)));
+    throw Error(
+        ErrorKind::Usage,
+        fmt::format("--camera {}: expected a camera .json file, or one of the cameras that {} lists, got none of "
+                    "them: {}",
+                    asked, scene.source.string(), camera_names(scene)));
 }
 
 }  // namespace

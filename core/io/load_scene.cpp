@@ -142,14 +142,9 @@ SceneDescription load_scene(const std::string& name_or_path, const fs::path& ass
     if (!is_path && !(is_name && is_file(path))) {
         fail_unknown(name_or_path, assets_dir);
     }
-    if (!asked.parameters.empty() && suffix_of(path) != ".xml") {
-        throw Error(ErrorKind::Usage,
-                    fmt::format("-D {}: expected a Mitsuba scene, a .xml, which alone has $parameters; got {}",
-                                asked.parameters.front().first, path.string()));
-    }
     SceneDescription scene = load_file(path, asked);
     choose_camera(asked.camera, scene);
-    require_known_knobs(scene, asked.knobs);
+    if (suffix_of(path) != ".xml") require_known_knobs(scene, asked.parameters);
     if (!asked.materials.empty()) {
         read_material_file(asked.materials, scene);
     }

@@ -8,7 +8,6 @@
 #include <utility>
 #include <vector>
 
-#include "core/io/map_kd.h"
 #include "core/scene/description.h"
 #include "core/scene/up_axis.h"
 
@@ -19,10 +18,7 @@ inline constexpr std::uint64_t kMostCopiedTriangles = 2'000'000;
 
 /// Where a choice is empty, the scene file decides.
 struct LoadSettings {
-    KnobValues knobs{};
-    /// Names and values of $parameters of Mitsuba files, of a name that comes twice the last.
-    std::vector<std::pair<std::string, std::string>> parameters{};
-    MapKd map_kd = MapKd::Multiplies;   ///< of MTL files
+    ParameterTexts parameters{};        ///< of knobs of scene files, of $parameters of Mitsuba files
     std::string camera{};               ///< name or number, from 1, of a camera that the file lists; empty: the first
     std::filesystem::path materials{};  ///< file of read_material_file(); empty for none
     std::optional<bool>

@@ -17,9 +17,9 @@ bool is_scene_suffix(std::string_view suffix) {
 }
 
 SceneDescription load_mesh(const std::filesystem::path& path, MeshGroups* groups, const LoadSettings& asked,
-                           ObjNormals normals) {
+                           MapKd map_kd, ObjNormals normals) {
     return is_gltf(path) ? load_gltf(path, groups, asked.most_copied_triangles)
-                         : load_obj(path, groups, asked.map_kd, normals);
+                         : load_obj(path, groups, map_kd, normals);
 }
 
 }  // namespace pl

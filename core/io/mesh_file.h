@@ -14,8 +14,8 @@ bool is_gltf(const std::filesystem::path& path);
 /// Whether load_scene() opens files of a suffix: lower case, with its dot.
 bool is_scene_suffix(std::string_view suffix);
 
-/// load_gltf() or load_obj(), by the suffix. `normals` are of OBJ files.
+/// load_gltf() or load_obj(), by the suffix. `map_kd` and `normals` are of OBJ files.
 SceneDescription load_mesh(const std::filesystem::path& path, MeshGroups* groups, const LoadSettings& asked,
-                           ObjNormals normals = ObjNormals::Any);
+                           MapKd map_kd = MapKd::Multiplies, ObjNormals normals = ObjNormals::Any);
 
 }  // namespace pl

@@ -149,10 +149,10 @@ std::vector<UvScale> load_mtl(const fs::path& path, SceneDescription& scene, Map
     }
     textures.tell();
     differing.tell(scene.warnings, path, "images of one material with different -s or -o: those of the first count");
-    dimmed.tell(
-        scene.warnings, path,
-        "the image of map_Kd is multiplied by a Kd that is a default of exporters (--map-kd replace: the image "
-        "alone, as Blender shows it)");
+    dimmed.tell(scene.warnings, path,
+                "the image of map_Kd is multiplied by a Kd that is a default of exporters (\"map_kd\": \"replace\" "
+                "in a scene "
+                "file: the image alone, as Blender shows it)");
     return uvs;
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "core/io/camera_file.h"
 #include "core/io/files.h"
@@ -27,12 +28,11 @@ namespace {
 constexpr const char* kSchema = "pathlight.scene/1";
 
 /// Options that a scene may preset: those that affect the picture, not output and reporting.
-const std::vector<std::string> kSettings = {
-    "method",        "view",          "backend",       "threads",      "spp",          "time-limit",
-    "target-error",  "width",         "height",        "size",         "seed",         "nee",
-    "max-depth",     "exposure",      "tonemap",       "field-budget", "volumes",      "bins",
-    "bsdf-fraction", "learning-rate", "learn-target",  "learn-from",   "field",        "roulette",
-    "refine",        "guiding",       "default-light", "up-axis",      "learn-passes", "probes"};
+const std::vector<std::string> kSettings = {"method",       "view",         "backend",   "threads",       "spp",
+                                            "time-limit",   "target-error", "width",     "height",        "size",
+                                            "seed",         "nee",          "max-depth", "exposure",      "tonemap",
+                                            "field-budget", "volumes",      "bins",      "bsdf-fraction", "learn",
+                                            "field",        "roulette",     "guiding",   "default-light", "up-axis"};
 
 /// The vertical axis: of the choice, else of the settings, else of the camera, else guessed. Expects scene.settings.
 void read_up(const JsonDocument& file, const LoadSettings& asked, SceneDescription& scene) {
@@ -92,6 +92,15 @@ ObjNormals read_normals(const JsonDocument& file) {
     return lengths == "unit" ? ObjNormals::Unit : ObjNormals::Any;
 }
 
+MapKd read_map_kd(const JsonDocument& file) {
+    const std::string name = file.text("/map_kd").value_or(std::string(name_of(MapKd::Multiplies)));
+    const std::optional<MapKd> choice = choice_named<MapKd>(name);
+    if (!choice) {
+        file.fail("/map_kd", fmt::format("expected {}, got '{}'", fmt::join(choice_names<MapKd>(), " or "), name));
+    }
+    return *choice;
+}
+
 /// The texels of an image, row by row from the top, are the colors of the vertices.
 void read_vertex_colors(const JsonDocument& file, SceneDescription& scene) {
     const std::string pointer = "/vertex_colors";
@@ -134,8 +143,8 @@ void read_settings(const JsonDocument& file, SceneDescription& scene) {
 
 SceneDescription load_scene_json(const std::filesystem::path& path, const LoadSettings& asked) {
     JsonDocument file(read_text_file(path), path);
-    file.object("", {"schema", "name", "obj", "normals", "vertex_colors", "camera", "cameras", "environment",
-                     "lights", "materials", "knobs", "settings"});
+    file.object("", {"schema", "name", "obj", "normals", "map_kd", "vertex_colors", "camera", "cameras",
+                     "environment", "lights", "materials", "knobs", "settings"});
     const std::optional<std::string> schema = file.text("/schema");
     if (schema != kSchema) {
         file.fail("/schema",
@@ -148,15 +157,15 @@ SceneDescription load_scene_json(const std::filesystem::path& path, const LoadSe
     // Groups make the loader copy meshes: knobs move groups, and the image of vertex colors has a texel for each copy's vertex.
     const bool needs_groups = file.has("/knobs") || file.has("/vertex_colors");
     MeshGroups groups;
-    SceneDescription scene =
-        load_mesh(path.parent_path() / *obj, needs_groups ? &groups : nullptr, asked, read_normals(file));
+    SceneDescription scene = load_mesh(path.parent_path() / *obj, needs_groups ? &groups : nullptr, asked,
+                                       read_map_kd(file), read_normals(file));
     file.count_from(scene.origin);
     scene.source = path;
     scene.files.push_back(path);
     scene.name = file.text("/name").value_or(path.stem().string());
     read_vertex_colors(file, scene);
     read_materials(file, scene);
-    read_knobs(file, scene, groups, asked.knobs);
+    read_knobs(file, scene, groups, asked.parameters);
     read_environment(file, scene);
     read_punctual_lights(file, scene);
     read_settings(file, scene);

@@ -14,6 +14,7 @@ namespace pl {
 ///                aperture_radius > 0 a thin lens focused at focus_distance, by default the distance of the target
 ///   cameras      cameras to choose from, see read_named_cameras(); the first is shown unless there is a `camera`
 ///   normals      "unit": those of the OBJ file that are unit to within rounding are taken to the bit; else "any"
+///   map_kd       "replace": an image of map_Kd alone is the albedo of an MTL entry; else "multiply": it is multiplied by Kd
 ///   environment  see read_environment()
 ///   materials    name of an MTL entry -> overrides, see read_materials()
 ///   knobs        see read_knobs()

@@ -170,20 +170,21 @@ void set_albedo(const JsonDocument& file, const std::string& at, SceneDescriptio
     }
 }
 
-/// The requested value, or the default. Throws Error(Usage) if it is out of range.
-float value_of(const KnobDescription& knob, const KnobValues& asked) {
-    float value = knob.default_value;
-    for (const auto& [name, number] : asked) {
-        if (name == knob.name) value = number;
-    }
-    if (!(value >= knob.low && value <= knob.high)) {
-        throw Error(ErrorKind::Usage, fmt::format("--knob {}: expected a number from {} to {} ({}), got {}",
-                                                  knob.name, knob.low, knob.high, knob.does, value));
+/// The requested value, or the default. Throws Error(Usage) for one that is no number in the range.
+float value_of(const KnobDescription& knob, const ParameterTexts& asked) {
+    const auto last =
+        std::find_if(asked.rbegin(), asked.rend(), [&](const auto& given) { return given.first == knob.name; });
+    if (last == asked.rend()) return knob.default_value;
+    const std::optional<double> number = parse_number(last->second);
+    const auto value = static_cast<float>(number.value_or(0.0));
+    if (!number || !(value >= knob.low && value <= knob.high)) {
+        throw Error(ErrorKind::Usage, fmt::format("-D {}: expected a number from {} to {} ({}), got '{}'", knob.name,
+                                                  knob.low, knob.high, knob.does, last->second));
     }
     return value;
 }
 
-KnobDescription read_knob(const JsonDocument& file, const std::string& name, const KnobValues& asked) {
+KnobDescription read_knob(const JsonDocument& file, const std::string& name, const ParameterTexts& asked) {
     const std::string at = "/knobs" + pointer_step(name);
     file.object(at, {"default", "range", "does", "moves", "turns", "scales", "albedo"});
     const std::optional<float> default_value = file.number(at + "/default");
@@ -227,7 +228,7 @@ void apply_knob(const JsonDocument& file, SceneDescription& scene, const MeshGro
 }  // namespace
 
 void read_knobs(const JsonDocument& file, SceneDescription& scene, const MeshGroups& groups,
-                const KnobValues& asked) {
+                const ParameterTexts& asked) {
     const auto all = file.root().find("knobs");
     if (all != file.root().end() && !all->is_object()) {
         file.fail("/knobs", "expected an object { ... }");
@@ -240,12 +241,12 @@ void read_knobs(const JsonDocument& file, SceneDescription& scene, const MeshGro
     }
 }
 
-void require_known_knobs(const SceneDescription& scene, const KnobValues& asked) {
+void require_known_knobs(const SceneDescription& scene, const ParameterTexts& asked) {
     std::vector<std::string> known;
     for (const KnobDescription& knob : scene.knobs) known.push_back(knob.name);
     for (const auto& [name, value] : asked) {
         if (std::find(known.begin(), known.end(), name) != known.end()) continue;
-        throw Error(ErrorKind::Usage, fmt::format("--knob {}: {} has no such knob{}", name, scene.source.string(),
+        throw Error(ErrorKind::Usage, fmt::format("-D {}: {} has no such knob{}", name, scene.source.string(),
                                                   known.empty() ? ": it has none" : known_names(name, known)));
     }
 }

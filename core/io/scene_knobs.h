@@ -17,9 +17,10 @@ namespace pl {
 /// Throws Error(Input) with file and line for errors of the files, whatever the values: an unknown group or material,
 /// a group that shares a vertex or normal with a part that does not move, a scale that reaches 0, an albedo different
 /// from the default. Throws Error(Usage) for a value out of range or an unknown knob.
-void read_knobs(const JsonDocument& file, SceneDescription& scene, const MeshGroups& groups, const KnobValues& asked);
+void read_knobs(const JsonDocument& file, SceneDescription& scene, const MeshGroups& groups,
+                const ParameterTexts& asked);
 
 /// Throws Error(Usage) for a knob that the scene does not have.
-void require_known_knobs(const SceneDescription& scene, const KnobValues& asked);
+void require_known_knobs(const SceneDescription& scene, const ParameterTexts& asked);
 
 }  // namespace pl

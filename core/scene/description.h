@@ -224,6 +224,9 @@ struct KnobDescription {
 /// Names of knobs and requested values; the last one of a name counts.
 using KnobValues = std::vector<std::pair<std::string, float>>;
 
+/// Names of parameters of a scene, such as its knobs, and texts of their values; the last one of a name counts.
+using ParameterTexts = std::vector<std::pair<std::string, std::string>>;
+
 /// Everything that decides the light transport of a scene, and its camera.
 struct SceneDescription {
     std::string name;

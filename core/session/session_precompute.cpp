@@ -39,8 +39,6 @@ bool Session::needs_precompute(FilmSlot slot) const {
 Progress Session::precompute_slice(FilmSlot slot, const StopFlag* stop) {
     const Stopwatch watch;
     FieldProgress& map = field(slot.method);
-    FilmOrigin& origin = films_[slot].origin;
-    origin.forced = origin.forced.with(settings_.forced_effects);
     const auto slices = static_cast<std::uint32_t>(settings_.field.precompute_samples);
     const std::uint32_t end = coarse_map_suffices(slot) ? coarse_probe_count() : probe_count();
     const PassCounters counters =

@@ -187,7 +187,6 @@ void Session::render_part(FilmSlot slot, std::uint32_t end, const StopFlag* stop
     const Stopwatch watch;
     FilmProgress& state = films_[slot];
     FieldProgress& learned = field(slot.method);
-    state.origin.forced = state.origin.forced.with(settings_.forced_effects);
     PassRequest request = pass_request(slot, state.is_guided ? slot.method : baseline_method(), stop);
     request.first_pixel = state.next_pixel;
     request.end_pixel = end;

@@ -31,7 +31,6 @@ struct FilmOrigin {
     bool warm = false;             ///< its method had a learned field before the first sample
     double place_seconds = 0.0;    ///< on the clocks before the film began
     double precompute_seconds = 0.0;
-    FeatureSet forced{};  ///< forced effects beyond the needed ones of any of its passes: they take time
 };
 
 /// Size and progress of a method's learned field.

@@ -14,8 +14,8 @@ using nlohmann::json;
 namespace fs = std::filesystem;
 
 Arguments render(const std::string& output, std::uint32_t spp, const Arguments& more) {
-    return joined({"render", "cornell", "-o", output, "--size", "32x32", "--volumes", "60", "--bins", "64",
-                   "--refine", "0.5", "--spp", std::to_string(spp)},
+    return joined({"render", "cornell", "-o", output, "--size", "32x32", "--volumes", "60", "--bins", "64", "--learn",
+                   "refine=0.5", "--spp", std::to_string(spp)},
                   more);
 }
 

@@ -61,10 +61,10 @@ TEST_CASE("a picture goes to standard output alone") {
     };
     for (const auto& [output, suffix] :
          {std::pair<std::string, std::string>{"pfm:-", "pfm"}, {"-", "png"}, {"png:-", "png"}, {"exr:-", "exr"}}) {
-        const ProgramResult piped = run_program(render(output, {"--gain", folder / "g.json"}));
+        const ProgramResult piped = run_program(render(output, {"--save-field", folder / "f"}));
         CAPTURE(output, piped.err);
         CHECK(piped.code == 0);
-        CHECK_THAT(piped.err, contains("8x8, precomputed") && contains("g.json: "));
+        CHECK_THAT(piped.err, contains("8x8, precomputed") && contains("f: "));
         const std::string file = folder / ("x." + suffix);
         REQUIRE(run_program(render(file)).code == 0);
         // Metadata have the time of the rendering, and the command.

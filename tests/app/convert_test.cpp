@@ -73,7 +73,9 @@ TEST_CASE("convert: an OBJ file with images, normals and a default camera keeps 
     write_all(folder / "a.obj", kTwoSquares);
     write_all(folder / "m.mtl", kMaterials);
     check_same(folder, folder / "a.obj");
-    check_same(folder, folder / "a.obj", {"--map-kd", "replace", "--up-axis", "z"});
+    write_all(folder / "a.json", R"({"schema": "pathlight.scene/1", "obj": "a.obj", "map_kd": "replace"})");
+    check_same(folder, folder / "a.json", {"--up-axis", "z"});
+    CHECK(picture(folder, folder / "a.json") != picture(folder, folder / "a.obj"));
 }
 
 TEST_CASE("convert: a scene without a light keeps its default light, or its darkness") {
@@ -87,7 +89,7 @@ TEST_CASE("convert: a scene file keeps camera, settings, sky, sun and the values
     const TempDir folder;
     check_same(folder, "textured-room");
     check_same(folder, "lens");
-    check_same(folder, "door", {"--knob", "opening=20"});
+    check_same(folder, "door", {"-D", "opening=20"});
     const ProgramResult result = run_program({"convert", "door", "-o", folder / "d.json"});
     CHECK_THAT(result.err, contains("its knobs are left out"));
 }
@@ -111,13 +113,13 @@ TEST_CASE("convert: a glTF file keeps pictures and listed cameras") {
     file.node({{"name", "far"}, {"camera", 0}, {"translation", {0, 0, 9}}});
     write_all(folder / "a.glb", file.glb());
     check_same(folder, folder / "a.glb");
-    check_same(folder, folder / "a.glb", {"--scene-camera", "far"});
+    check_same(folder, folder / "a.glb", {"--camera", "far"});
 
-    convert(folder / "a.glb", folder / "s.json", {"--scene-camera", "2"});
+    convert(folder / "a.glb", folder / "s.json", {"--camera", "2"});
     const ProgramResult info = run_program({"info", folder / "s.json", "--json"});
     const ordered_json cameras = ordered_json::parse(lines_of(info.out).back())["cameras"];
     CHECK(cameras == ordered_json::array({"far", "front"}));
-    CHECK(picture(folder, folder / "s.json", {"--scene-camera", "front"}) == picture(folder, folder / "a.glb"));
+    CHECK(picture(folder, folder / "s.json", {"--camera", "front"}) == picture(folder, folder / "a.glb"));
 }
 
 TEST_CASE("convert: a Mitsuba file keeps its picture, its size and its sky") {

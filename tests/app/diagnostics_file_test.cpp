@@ -1,4 +1,4 @@
-// `render --diagnostics` from a shell: the picture and the counts of invalid samples, lost paths and lookup misses.
+// `trace --diagnostics` from a shell: the picture and the counts of invalid samples, lost paths and lookup misses.
 #include <algorithm>
 
 #include <nlohmann/json.hpp>
@@ -22,15 +22,16 @@ std::string write_bright_room(const TempDir& folder) {
     return folder / "room.obj";
 }
 
-json render_with_diagnostics(const TempDir& folder, const std::string& scene, const std::string& picture,
-                             const Arguments& more) {
-    Arguments arguments{"render", scene,           "-o",    folder / "a.pfm", "--size",         "20x12", "--backend",
-                        "cpu",    "--diagnostics", picture, "--stats",        folder / "s.json"};
+/// Members of the event.
+json diagnostics_of(const std::string& scene, const std::string& picture, const Arguments& more) {
+    Arguments arguments{"trace", scene, "--size", "20x12", "--backend", "cpu", "--diagnostics", picture, "--json"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     const ProgramResult result = run_program(arguments);
     CAPTURE(result.err);
     REQUIRE(result.code == 0);
-    return json::parse(read_all(folder / "s.json"));
+    for (const std::string& line : lines_of(result.out))
+        if (json event = json::parse(line); event["event"] == "diagnostics") return event;
+    return {};
 }
 
 const Arguments kInside{"--eye", "0,0,0.5", "--target", "0,0,-1", "--max-depth", "2", "--roulette", "albedo"};
@@ -43,12 +44,11 @@ TEST_CASE("diagnostics: invalid samples are counted where they are, in numbers a
     for (const char* method : {"default", "precomputed", "reinforcement"}) {
         Arguments more = kInside;
         more.insert(more.end(), {"--method", method, "--spp", "3", "--volumes", "20", "--bins", "16"});
-        const json stats = render_with_diagnostics(folder, scene, folder / "t.exr", more);
-        INFO(method << stats["diagnostics"].dump());
-        const std::uint64_t invalid = stats["invalid_samples"];
+        const json diagnostics = diagnostics_of(scene, folder / "t.exr", more);
+        INFO(method << diagnostics.dump());
+        const std::uint64_t invalid = diagnostics["invalid_samples"];
         CHECK(invalid > 100);
-        const json& found = stats["diagnostics"]["found"];
-        CHECK(stats["diagnostics"]["invalid_samples"] == invalid);
+        const json& found = diagnostics["found"];
         CHECK(found["invalid_samples"]["count"] == invalid);
         CHECK(found["complete"] == true);
         double red = 0.0;
@@ -66,14 +66,14 @@ TEST_CASE("diagnostics: a PNG is dark but for the marks, and tells what they are
     const TempDir folder;
     Arguments more = kInside;
     more.insert(more.end(), {"--spp", "1"});
-    const json stats = render_with_diagnostics(folder, write_bright_room(folder), folder / "t.png", more);
+    const json diagnostics = diagnostics_of(write_bright_room(folder), folder / "t.png", more);
     ImageMetadata metadata;
     const ByteImage image = read_png8(folder / "t.png", &metadata);
     std::uint64_t marked = 0;
     for (std::size_t i = 0; i < image.rgb.size(); i += 3)
         marked += pack_pixel(image.rgb[i], image.rgb[i + 1], image.rgb[i + 2]) ==
                   info_of(diagnose::DiagnosticKind::InvalidSample).color;
-    CHECK(marked >= stats["diagnostics"]["found"]["invalid_samples"]["pixels"]);
+    CHECK(marked >= diagnostics["found"]["invalid_samples"]["pixels"]);
     CHECK(std::any_of(metadata.begin(), metadata.end(), [](const auto& entry) {
         return entry.first == "diagnostics" && entry.second.find(" invalid in ") != std::string::npos;
     }));
@@ -82,21 +82,18 @@ TEST_CASE("diagnostics: a PNG is dark but for the marks, and tells what they are
 TEST_CASE(
     "diagnostics: misses are found, paths may leave an open scene, and clamped records are told by who learns") {
     const TempDir folder;
-    const json misses = render_with_diagnostics(
-        folder, "cornell", folder / "t.pfm",
-        {"--method", "precomputed", "--volumes", "1", "--bins", "16", "--spp", "2"})["diagnostics"];
+    const json misses = diagnostics_of("cornell", folder / "t.pfm",
+                                       {"--method", "precomputed", "--volumes", "1", "--bins", "16", "--spp", "2"});
     CHECK(misses["lookup_misses"] > 100);
     CHECK(misses["found"]["lookup_misses"]["count"] == misses["lookup_misses"]);
     CHECK(misses["closed"] == false);
     CHECK(misses["escaped_paths"] == 0);
     CHECK(misses["clamped_records"] == 0);
     CHECK(misses["found"]["clamped_records"].is_null());
-    const json learning =
-        render_with_diagnostics(folder, "cornell", folder / "t.pfm", {"--method", "reinforcement", "--spp", "2"});
-    CHECK(learning["escaped_paths"] > 100);
-    CHECK(learning["diagnostics"]["clamped_records"] == 0);
-    CHECK(learning["diagnostics"]["found"]["traced"] == 0);  // nothing was counted
-    CHECK(learning["diagnostics"]["found"]["moving_tables"] == true);
+    const json learning = diagnostics_of("cornell", folder / "t.pfm", {"--method", "reinforcement", "--spp", "2"});
+    CHECK(learning["clamped_records"] == 0);
+    CHECK(learning["found"]["traced"] == 0);  // nothing was counted
+    CHECK(learning["found"]["moving_tables"] == true);
 }
 
 TEST_CASE("diagnostics: statistics have what was counted without looking, too") {
@@ -107,19 +104,19 @@ TEST_CASE("diagnostics: statistics have what was counted without looking, too") 
     const json diagnostics = json::parse(read_all(folder / "s.json"))["diagnostics"];
     CHECK(diagnostics["invalid_samples"] == 0);
     CHECK(diagnostics["lookup_misses"] == 0);
-    CHECK(diagnostics["found"].is_null());
+    CHECK_FALSE(diagnostics.contains("found"));
     CHECK(diagnostics["closed"].is_null());
 }
 
 TEST_CASE("2: diagnostics is looked for in paths, and written to pictures") {
     const TempDir folder;
-    check_refused(
-        2, {"render", "cornell", "-o", folder / "a.png", "--view", "normal", "--diagnostics", folder / "t.png"},
-        "--diagnostics: expected --view beauty, got 'normal'");
-    check_refused(2, {"render", "cornell", "-o", folder / "a.png", "--diagnostics", folder / "t.json"}, "t.json");
+    check_refused(2, {"trace", "cornell", "--pixel", "1,1", "--sample", "0", "--diagnostics", folder / "t.png"},
+                  "whole picture");
+    check_refused(2, {"trace", "cornell", "-o", folder / "a.png", "--diagnostics", folder / "t.png"},
+                  "whole picture");
+    check_refused(2, {"trace", "cornell", "--diagnostics", folder / "t.json"}, "t.json");
     check_refused(2, {"info", "cornell", "--diagnostics", folder / "t.png"}, "--diagnostics");
-    check_refused(1, {"render", "cornell", "-o", folder / "a.png", "--diagnostics", folder / "missing/t.png"},
-                  "cannot be written");
+    check_refused(1, {"trace", "cornell", "--diagnostics", folder / "missing/t.png"}, "cannot be written");
     CHECK(folder.names().empty());
 }
 

@@ -67,7 +67,7 @@ TEST_CASE("gltf: the Cornell box has the picture of its OBJ file, to the bit") {
     CHECK(picture(folder / "box.glb") == own);
 }
 
-TEST_CASE("gltf: cameras are listed by info and chosen by --scene-camera") {
+TEST_CASE("gltf: cameras are listed by info and chosen by --camera") {
     GltfMaker file;
     file.triangle();
     file.root["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 0.5}}}}};
@@ -82,12 +82,13 @@ TEST_CASE("gltf: cameras are listed by info and chosen by --scene-camera") {
     };
     CHECK(info({})["cameras"] == ordered_json::array({"front", "far"}));
     CHECK(info({})["camera"]["eye"] == ordered_json::array({0.0, 0.0, 5.0}));
-    CHECK(info({"--scene-camera", "far"})["camera"]["eye"] == ordered_json::array({0.0, 0.0, 9.0}));
-    CHECK_THAT(run_program({"info", folder / "a.gltf", "--scene-camera", "2"}).out,
-               contains("--scene-camera 1: front\n") && contains("--scene-camera 2: far (this one)"));
-    const ProgramResult wrong = run_program({"info", folder / "a.gltf", "--scene-camera", "3"});
+    CHECK(info({"--camera", "far"})["camera"]["eye"] == ordered_json::array({0.0, 0.0, 9.0}));
+    CHECK_THAT(run_program({"info", folder / "a.gltf", "--camera", "2"}).out,
+               contains("--camera 1: front\n") && contains("--camera 2: far (this one)"));
+    const ProgramResult wrong = run_program({"info", folder / "a.gltf", "--camera", "3"});
     CHECK(wrong.code == 2);
-    CHECK_THAT(wrong.err, contains("--scene-camera 3: expected one of the cameras") && contains("2 'far'"));
+    CHECK_THAT(wrong.err,
+               contains("--camera 3: expected a camera .json file, or one of the cameras") && contains("2 'far'"));
 }
 
 }  // namespace pl::test

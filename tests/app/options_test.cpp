@@ -6,8 +6,6 @@
 #include <limits>
 #include <random>
 
-#include <wordexp.h>
-
 #include <fmt/format.h>
 
 #include "app/build_info.h"
@@ -20,14 +18,6 @@
 
 namespace pl::test {
 namespace {
-
-std::vector<std::string> shell_words(const std::string& command) {
-    wordexp_t words{};
-    REQUIRE(wordexp(command.c_str(), &words, WRDE_NOCMD | WRDE_UNDEF) == 0);
-    std::vector<std::string> result(words.we_wordv, words.we_wordv + words.we_wordc);
-    wordfree(&words);
-    return result;
-}
 
 /// A float of any finite bit pattern.
 float any_float(std::mt19937& random) {
@@ -52,6 +42,8 @@ Options any_options(std::mt19937& random) {
     o.render.height = whole(1, 16384);
     o.render.camera = {any_vector(random),   any_vector(random), any_vector(random),
                        real(0.001f, 179.9f), real(0.0f, 2.0f),   real(0.001f, 99.0f)};
+    if (whole(0, 1) == 1) o.render.camera.shift = {any_float(random), any_float(random)};
+    o.render.camera.is_mirrored = whole(0, 1) == 1;
     o.render.seed = (std::uint64_t{random()} << 32) | random();
     o.render.max_depth = whole(1, 65536);
     o.render.next_event = whole(0, 1) == 1;
@@ -73,7 +65,6 @@ Options any_options(std::mt19937& random) {
     if (whole(0, 1) == 1) o.time_limit_seconds = real(0.001f, 1.0e9f);
     if (whole(0, 1) == 1) o.load.default_light = whole(0, 1) == 1;
     if (whole(0, 1) == 1) o.load.up_axis = static_cast<UpAxis>(whole(0, 3));
-    if (whole(0, 1) == 1) o.load.map_kd = MapKd::Replaces;
     if (whole(0, 1) == 1) o.load.camera = "the side's camera";
     if (whole(0, 1) == 1) o.load.materials = "edited materials.json";
     for (int i = whole(0, 2); i > 0; --i) o.load.parameters.emplace_back("p" + std::to_string(i), "it's, $2 = 3");
@@ -95,6 +86,8 @@ void require_equal(const Options& a, const Options& b) {
     REQUIRE(a.render.camera.fov_deg == b.render.camera.fov_deg);
     REQUIRE(a.render.camera.aperture_radius == b.render.camera.aperture_radius);
     REQUIRE(a.render.camera.focus_distance == b.render.camera.focus_distance);
+    REQUIRE((a.render.camera.shift == b.render.camera.shift));
+    REQUIRE(a.render.camera.is_mirrored == b.render.camera.is_mirrored);
     REQUIRE(a.render.seed == b.render.seed);
     REQUIRE(a.render.max_depth == b.render.max_depth);
     REQUIRE(a.render.next_event == b.render.next_event);
@@ -108,7 +101,6 @@ void require_equal(const Options& a, const Options& b) {
     REQUIRE(a.load.default_light == b.load.default_light);
     REQUIRE(a.load.up_axis == b.load.up_axis);
     REQUIRE(a.load.camera == b.load.camera);
-    REQUIRE(a.load.map_kd == b.load.map_kd);
     REQUIRE(a.load.materials == b.load.materials);
     REQUIRE(a.load.parameters == b.load.parameters);
     REQUIRE(a.threads == b.threads);
@@ -338,6 +330,31 @@ TEST_CASE("a camera file goes over the scene's camera, single options over both"
         CHECK(error.kind() == ErrorKind::Input);
         CHECK_THAT(error.what(), contains("camera.json:3") && contains("fov_deg"));
     }
+}
+
+TEST_CASE("a camera is parts of a file, parts as text, and the name of one that the scene lists, over each other") {
+    const TempDir folder;
+    write_all(folder / "lens.json", R"({"aperture_radius": 0.5, "focus_distance": 6})");
+    write_all(folder / "plain", R"({"shift_y": 0.25})");
+    const Options options =
+        parse({"render", "s", "-o", "x.png", "--camera", "far", "--camera", folder / "lens.json", "--camera",
+               R"({"focus_distance": 7, "mirrored": true})", "--camera", folder / "plain", "--up", "0,0,1"});
+    CHECK(options.load.camera == "far");
+    CHECK(options.render.camera.aperture_radius == 0.5f);
+    CHECK(options.render.camera.focus_distance == 7.0f);
+    CHECK(options.render.camera.is_mirrored);
+    CHECK((options.render.camera.shift == glm::vec2(0.0f, 0.25f)));
+    CHECK((options.render.camera.up == glm::vec3(0, 0, 1)));
+    CHECK_THAT(command_text(Command::Render, options, scene_defaults("s", plain_scene())),
+               contains(R"( --camera far --camera '{"aperture_radius":0.5,"focus_distance":7}' )"
+                        R"(--camera '{"shift_x":0,"shift_y":0.25}' --camera '{"mirrored":true}')"));
+    for (const auto& [text, expected] : {std::pair{R"({"focus": 7})", "focus_distance"},
+                                         {R"({"aperture_radius": -1})", "expected a number of at least 0"},
+                                         {R"({"fov_deg": 180})", "expected an angle between 0 and 180 degrees"},
+                                         {R"({"focus_distance": 0})", "expected a number above 0"},
+                                         {"{", "--camera: JSON:1"}})
+        CHECK_THAT(complaint({"render", "s", "-o", "x.png", "--camera", text}), contains(expected));
+    CHECK_THROWS(parse({"render", "s", "-o", "x.png", "--camera", folder / "missing.json"}));
 }
 
 TEST_CASE("scene files may set exactly the options that the table says") {

@@ -1,6 +1,8 @@
 // Parsing of options against a scene without settings.
 #pragma once
 
+#include <wordexp.h>
+
 #include "app/options.h"
 #include "core/base/error.h"
 #include "tests/support/catch.hpp"
@@ -18,6 +20,15 @@ inline Options parse(const std::vector<std::string>& arguments, const SceneDescr
     const CommandLine line = parse_command_line(arguments);
     REQUIRE_FALSE(line.answer);
     return resolve_options(line, scene);
+}
+
+/// The words of a command as a shell splits it.
+inline std::vector<std::string> shell_words(const std::string& command) {
+    wordexp_t words{};
+    REQUIRE(wordexp(command.c_str(), &words, WRDE_NOCMD | WRDE_UNDEF) == 0);
+    std::vector<std::string> result(words.we_wordv, words.we_wordv + words.we_wordc);
+    wordfree(&words);
+    return result;
 }
 
 /// The message of the usage error that the arguments cause; "nothing" if they cause none.

@@ -279,34 +279,6 @@ TEST_CASE("rendering stops at a target error, and 5 tells that another limit cam
     CHECK(stats()["target_error"].is_null());
 }
 
-TEST_CASE("a target error is one against a reference if there is one") {
-    const TempDir folder;
-    const Arguments picture{"cornell", "--size", "16x16"};
-    const auto run = [&](Arguments arguments, const Arguments& more) {
-        arguments.insert(arguments.end(), picture.begin(), picture.end());
-        arguments.insert(arguments.end(), more.begin(), more.end());
-        return run_program(arguments);
-    };
-    REQUIRE(run({"reference"}, {"--spp", "512", "-o", folder / "r"}).code == 0);
-    const Arguments to_target{"--nee", "on",          "-o",         folder / "x.exr", "--target-error",
-                              "0.02",  "--reference", folder / "r", "--stats",        folder / "s.json"};
-    const ProgramResult met = run({"render"}, to_target);
-    CAPTURE(met.out, met.err);
-    CHECK(met.code == 0);
-    CHECK_THAT(met.out, contains(", error ") && contains("(target 0.02)"));
-    const json target = json::parse(read_all(folder / "s.json"))["target_error"];
-    CHECK(target["of"] == "error");
-    // The same number from outside; the file holds floats, as the film was read.
-    const json compared = json::parse(run_program({"compare", folder / "x.exr", folder / "r", "--json"}).out);
-    CHECK_THAT(target["measured"].get<double>(), WithinRel(compared["relmse"].get<double>(), 1e-9));
-
-    Arguments deeper = to_target;
-    deeper.insert(deeper.end(), {"--max-depth", "3"});
-    const ProgramResult other = run({"render"}, deeper);
-    CHECK(other.code == 3);
-    CHECK_THAT(other.err, contains("differs in depth"));
-}
-
 TEST_CASE("an interruption writes the partial picture, marks it and exits with 130") {
     for (const std::string name : {"x.exr", "x.png", "x.pfm"}) {
         const TempDir folder;

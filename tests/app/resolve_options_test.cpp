@@ -64,8 +64,8 @@ TEST_CASE("wrong values name the option, the expected and the given value") {
         {{"--bins", "200"}, "--bins: expected a square number"},
         {{"--bins", "1"}, "--bins: expected"},
         {{"--bins", "2025"}, "--bins: expected"},
-        {{"--probes", "0"}, "--probes: expected a whole number from 1 to 1024"},
-        {{"--probes", "8"}, "--probes: expected a square number"},
+        {{"--learn", "probes=0"}, "--learn: probes: expected a whole number from 1 to 1024"},
+        {{"--learn", "probes=8"}, "--learn: probes: expected a square number"},
         {{"--fov", "0"}, "--fov: expected an angle between 0 and 180"},
         {{"--fov", "180"}, "--fov: expected"},
         {{"--fov", "inf"}, "--fov: expected"},
@@ -87,30 +87,34 @@ TEST_CASE("wrong values name the option, the expected and the given value") {
         {{"--threads", "0"}, "--threads: expected"},
         {{"--volumes", "0"}, "--volumes: expected"},
         {{"--field-budget", "0"}, "--field-budget: expected"},
-        {{"--refine", "1.01"}, "--refine: expected a number from 0 to 1, or auto, got '1.01'"},
-        {{"--refine", "-0.1"}, "--refine: expected a number from 0 to 1"},
-        {{"--refine", "nan"}, "--refine: expected"},
-        {{"--refine", "half"}, "--refine: expected"},
-        {{"--learning-rate", "means"},
-         "--learning-rate: expected mean or forgetful, got 'means', did you mean 'mean'?"},
-        {{"--learning-rate", "power"}, "--learning-rate: expected mean or forgetful, got 'power'"},
+        {{"--learn", "refine=1.01"}, "--learn: refine: expected a number from 0 to 1, or auto, got '1.01'"},
+        {{"--learn", "passes=9,refine=-0.1"}, "--learn: refine: expected a number from 0 to 1"},
+        {{"--learn", "refine=nan"}, "--learn: refine: expected"},
+        {{"--learn", "refine=half"}, "--learn: refine: expected"},
+        {{"--learn", "rate=means"}, "--learn: rate: expected mean or forgetful, got 'means', did you mean 'mean'?"},
+        {{"--learn", "rate=power"}, "--learn: rate: expected mean or forgetful, got 'power'"},
+        {{"--learn", "passes"}, "--learn: expected NAME=VALUE, such as passes=16, got 'passes'"},
+        {{"--learn", "probe=1"},
+         "--learn: expected refine, passes, target, from, rate or probes, got 'probe', did you mean 'probes'?"},
+        {{"--learn", ""}, "--learn: expected refine, passes"},
+        {{"--learn", "probes=4,"}, "--learn: expected refine, passes"},
         {{"--field", "sdtree"},
          "--field: expected table, sd-tree, lobes or neural, got 'sdtree', did you mean 'sd-tree'?"},
-        {{"--field", "sd-tree", "--learn-target", "sarsa"},
-         "--learn-target sarsa: expected --field table with it, got --field sd-tree"},
-        {{"--field", "neural", "--learn-target", "monte-carlo"},
-         "--learn-target monte-carlo: expected --field table with it, got --field neural"},
+        {{"--field", "sd-tree", "--learn", "target=sarsa"},
+         "--learn target=sarsa: expected --field table with it, got --field sd-tree"},
+        {{"--field", "neural", "--learn", "target=monte-carlo"},
+         "--learn target=monte-carlo: expected --field table with it, got --field neural"},
         {{"--field", "sd-tree", "--method", "precomputed"},
          "--field sd-tree: expected --field table with --method precomputed, whose probes fill tables"},
         {{"--field", "lobes", "--method", "precomputed"},
          "--field lobes: expected --field table with --method precomputed, whose probes fill tables"},
         {{"--field", "neural", "--method", "precomputed"},
          "--field neural: expected --field table with --method precomputed, whose probes fill tables"},
-        {{"--learn-target", "montecarlo"},
-         "--learn-target: expected expected-sarsa, sarsa or monte-carlo, got 'montecarlo', did you mean "
+        {{"--learn", "target=montecarlo"},
+         "--learn: target: expected expected-sarsa, sarsa or monte-carlo, got 'montecarlo', did you mean "
          "'monte-carlo'?"},
-        {{"--learn-from", "direct"},
-         "--learn-from: expected all or indirect, got 'direct', did you mean 'indirect'?"},
+        {{"--learn", "from=direct"},
+         "--learn: from: expected all or indirect, got 'direct', did you mean 'indirect'?"},
         {{"--roulette", "abledo"}, "--roulette: expected spare, albedo or off, got 'abledo', did you mean 'albedo'?"},
         {{"--seed", "-1"}, "--seed: expected a whole number of at least 0"},
         {{"--seed", "18446744073709551616"}, "--seed: expected"},
@@ -133,10 +137,10 @@ TEST_CASE("a crop is a camera and a size, whatever gave the whole picture its ow
     CHECK(part.render.camera.shift.y == Approx(1.0f));
     // The copied command has no crop, and is of the same picture to the bit.
     const std::string command = command_text(Command::Render, part, scene_defaults("s", scene));
-    CHECK_THAT(command, contains("--size 160x90") && contains("--shift-x "));
+    CHECK_THAT(command, contains("--size 160x90") && contains("--camera '{\"shift_x\":") && !contains("aperture"));
     CHECK_FALSE(command.find("--crop") != std::string::npos);
-    std::istringstream words(command);
-    const std::vector<std::string> arguments{++std::istream_iterator<std::string>(words), {}};
+    std::vector<std::string> arguments = shell_words(command);
+    arguments.erase(arguments.begin());
     const Options again = parse(arguments, scene);
     CHECK(again.render.camera.fov_deg == part.render.camera.fov_deg);
     CHECK(again.render.camera.shift == part.render.camera.shift);
@@ -171,21 +175,35 @@ TEST_CASE("the limits of values are values") {
                                                {"--bsdf-fraction", "1"},
                                                {"--bins", "4"},
                                                {"--bins", "1024"},
-                                               {"--probes", "1"},
-                                               {"--probes", "1024"},
+                                               {"--learn", "probes=1"},
+                                               {"--learn", "probes=1024"},
                                                {"--size", "16384x1"},
                                                {"--seed", "18446744073709551615"},
                                                {"--fov", "179.99"},
                                                {"--max-depth", "1"},
-                                               {"--refine", "auto"},
-                                               {"--refine", "0"},
-                                               {"--refine", "1"}}) {
+                                               {"--learn", "refine=auto"},
+                                               {"--learn", "refine=0,refine=0.5"},
+                                               {"--learn", "refine=1"}}) {
         CAPTURE(words);
         CHECK_NOTHROW(parse(render_with(words)));
     }
     CHECK(parse(render_with({"--bsdf-fraction", "0.1"})).render.mixture.bsdf_fraction >= 0.1f);
     CHECK(parse(render_with({"--bsdf-fraction", "0.1"})).render.mixture.learned == 0);
     CHECK(parse(render_with({"--bsdf-fraction", "learned"})).render.mixture == MixtureSettings{});
+}
+
+TEST_CASE("what is learned how is one option of many values, on the command line and in scene files") {
+    SceneDescription scene = plain_scene();
+    scene.settings = {{"learn", "refine=0.25,passes=8"}};
+    const Options options = parse(render_with({"--learn", "target=sarsa,passes=9", "--learn", "rate=mean"}), scene);
+    CHECK(options.render.field.refine_share == 0.25f);
+    CHECK(options.render.learn_passes == 9);
+    CHECK(options.render.field.learning.target == LearningTarget::Sarsa);
+    CHECK(options.render.field.rate == LearningRate::SampleMean);
+    // The copied command has what differs from the scene.
+    const std::string command = command_text(Command::Render, options, scene_defaults("s", scene));
+    CHECK_THAT(command, contains(" --learn passes=9 --learn target=sarsa --learn rate=mean"));
+    CHECK(command.find("refine") == std::string::npos);
 }
 
 TEST_CASE("options of later versions are refused by name") {
@@ -298,6 +316,8 @@ TEST_CASE("options beside a loaded field have to agree with it") {
     CHECK_NOTHROW(
         parse_with_field(loading({"--bins", "64", "--method", "precomputed", "--field-budget", "16"}), field));
     CHECK_NOTHROW(parse_with_field(loading({"--seed", "5", "--nee", "on", "--bsdf-fraction", "0.7"}), field));
+    CHECK_NOTHROW(parse_with_field(loading({"--learn", "passes=9,probes=1"}), field));
+    CHECK_NOTHROW(parse_with_field(loading({"-D", "opening=5", "--camera", R"({"shift_x": 1})"}), field));
     struct Wrong {
         std::vector<std::string> words;
         std::string message;
@@ -306,7 +326,8 @@ TEST_CASE("options beside a loaded field have to agree with it") {
         {{"--bins", "256"}, "--bins 256: the field in my.field was learned with --bins 64"},
         {{"--volumes", "9"}, "--volumes 9: the field in my.field was learned without --volumes"},
         {{"--field-budget", "1"}, "--field-budget 1: the field in my.field was learned with --field-budget 16"},
-        {{"--refine", "0.5"}, "--refine 0.5: the field in my.field was learned with --refine auto"},
+        {{"--learn", "passes=9", "--learn", "refine=0.5"},
+         "--learn refine=0.5: the field in my.field was learned with --learn refine=auto"},
         {{"--method", "reinforcement"},
          "--method reinforcement: the field in my.field was learned with --method prec"},
         {{"--method", "default"}, "--method default: the field in my.field was learned with --method precomputed"},

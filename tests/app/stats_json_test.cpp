@@ -84,8 +84,8 @@ TEST_CASE("statistics of the field: null without one, complete with one") {
 }
 
 TEST_CASE("statistics tell how many volumes refinement added") {
-    const ordered_json field = stats_of(
-        {"--method", "reinforcement", "--volumes", "60", "--bins", "16", "--refine", "0.5", "--spp", "17"})["field"];
+    const ordered_json field = stats_of({"--method", "reinforcement", "--volumes", "60", "--bins", "16", "--learn",
+                                         "refine=0.5", "--spp", "17"})["field"];
     CHECK(field["added_volumes"] > 20);
     CHECK(field["added_volumes"] <= field["volumes"].get<int>() / 3);
 }

@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "core/io/load_scene.h"
 #include "core/scene/scene_hash.h"
 #include "tests/support/catch.hpp"
@@ -96,7 +98,7 @@ TEST_CASE("Every knob changes its scene at both ends of its range, and nothing a
             CAPTURE(name, knob.name);
             ++count;
             const auto hash_at = [&](float value) {
-                return scene_hash(load_scene(name, kAssets, {.knobs = {{knob.name, value}}}));
+                return scene_hash(load_scene(name, kAssets, {.parameters = {{knob.name, fmt::format("{}", value)}}}));
             };
             CHECK(hash_at(knob.default_value) == scene_hash(plain));
             for (const float end : {knob.low, knob.high})
@@ -108,7 +110,7 @@ TEST_CASE("Every knob changes its scene at both ends of its range, and nothing a
 
 TEST_CASE("The door turns about its hinge by the given angle") {
     const SceneDescription plain = load_scene("door", kAssets);
-    const SceneDescription wide = load_scene("door", kAssets, {.knobs = {{"opening", 40.0f}}});
+    const SceneDescription wide = load_scene("door", kAssets, {.parameters = {{"opening", "40"}}});
     const std::vector<std::size_t> moved = moved_points(plain, wide);
     CHECK(moved.size() >= 6);  // the corners of the leaf that are not on the hinge
     for (const std::size_t i : moved) {
@@ -137,12 +139,12 @@ TEST_CASE("The thin wall is as thick as given, the lights as far apart") {
         }
         return std::pair(low, high);
     };
-    const SceneDescription thin = load_scene("thin-wall", kAssets, {.knobs = {{"thickness", 0.001f}}});
+    const SceneDescription thin = load_scene("thin-wall", kAssets, {.parameters = {{"thickness", "0.001"}}});
     const auto [left, right] = extent(thin, bodies(thin)[2]);
     CHECK(right - left == Approx(0.001).epsilon(1e-4));
     CHECK(right + left == Approx(0.0).margin(1e-8));
 
-    const SceneDescription lights = load_scene("two-lights", kAssets, {.knobs = {{"separation", 5.0f}}});
+    const SceneDescription lights = load_scene("two-lights", kAssets, {.parameters = {{"separation", "5"}}});
     const std::vector<Body> parts = bodies(lights);
     CHECK(extent(lights, parts[3]).second == Approx(-2.5));
     CHECK(extent(lights, parts[4]).first == Approx(2.5));

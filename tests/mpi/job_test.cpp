@@ -23,8 +23,8 @@ Arguments on_ranks(int ranks, const Arguments& arguments) {
 }
 
 Arguments render(const std::string& output, const std::string& spp, const Arguments& more) {
-    return joined({"render", "cornell", "-o", output, "--size", "48x40", "--volumes", "60", "--bins", "64",
-                   "--refine", "0.5", "--spp", spp},
+    return joined({"render", "cornell", "-o", output, "--size", "48x40", "--volumes", "60", "--bins", "64", "--learn",
+                   "refine=0.5", "--spp", spp},
                   more);
 }
 

@@ -46,10 +46,10 @@ export program work
         done
         for target in expected-sarsa sarsa monte-carlo; do
             for from in all indirect; do
-                echo "hash_picture '$scene $target $from nee' $scene --method reinforcement --nee on --learn-target $target --learn-from $from --spp 4"
+                echo "hash_picture '$scene $target $from nee' $scene --method reinforcement --nee on --learn target=$target,from=$from --spp 4"
             done
-            echo "hash_field '$scene field $target' $scene --method reinforcement --nee off --learn-target $target"
-            echo "hash_field '$scene field $target nee' $scene --method reinforcement --nee on --learn-target $target"
+            echo "hash_field '$scene field $target' $scene --method reinforcement --nee off --learn target=$target"
+            echo "hash_field '$scene field $target nee' $scene --method reinforcement --nee on --learn target=$target"
         done
         for roulette in albedo off; do
             echo "hash_picture '$scene roulette $roulette' $scene --method reinforcement --nee off --roulette $roulette --spp 4"

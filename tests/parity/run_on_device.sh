@@ -101,7 +101,7 @@ stage_a() {
         picture "picture-$method" 60 cornell --method "$method" --spp 4 --size 64x64
     done
     for method in sarsa monte-carlo; do
-        picture "picture-$method" 60 cornell --method reinforcement --learn-target "$method" --spp 4 --size 64x64
+        picture "picture-$method" 60 cornell --method reinforcement --learn "target=$method" --spp 4 --size 64x64
     done
     step compare 200 "$programs/compare_backends$suffix" "${compare_options[@]}"
     step bench 100 "$programs/cuda_bench$suffix" "${bench_a[@]}"

@@ -287,8 +287,11 @@ TEST_CASE("Forcing every effect on changes no bit, and a lens without an apertur
         INFO(estimator);
         RenderSettings settings = small_settings(scene, estimator);
         const State expected = render(scene, settings, {.threads = 2});
-        settings.forced_effects = kEveryFeature;
         settings.camera.focus_distance = 3.0f;
-        CHECK(same_state(expected, render(scene, settings, {.threads = 2})));
+        for (const FeatureSet forced :
+             {features(Feature::Specular), features(Feature::Textures, Feature::ThinLens), kEveryFeature}) {
+            settings.forced_effects = forced;
+            CHECK(same_state(expected, render(scene, settings, {.threads = 2})));
+        }
     }
 }

@@ -1,5 +1,7 @@
 // Light in the shipped scenes: unguided paths seldom find it in hard ones, often in easy ones, and no path
 // leaves a sealed room.
+#include <fmt/format.h>
+
 #include "tests/support/catch.hpp"
 #include "tests/support/scenes/shipped_scenes.h"
 #include "tests/support/session/sessions.h"
@@ -68,8 +70,9 @@ TEST_CASE("No path leaves the sealed scenes at either end of their knobs") {
         for (const KnobDescription& knob : shipped_scene(name).knobs)
             for (const float end : {knob.low, knob.high}) {
                 CAPTURE(knob.name, end);
-                check_sealed(load_scene(name, PL_SOURCE_DIR "/assets", {.knobs = {{knob.name, end}}}),
-                             {MethodId::Default, true});
+                check_sealed(
+                    load_scene(name, PL_SOURCE_DIR "/assets", {.parameters = {{knob.name, fmt::format("{}", end)}}}),
+                    {MethodId::Default, true});
             }
 }
 

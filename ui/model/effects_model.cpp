@@ -14,21 +14,16 @@ void EffectsModel::update(const PublishedFrame& frame) {
                 .backend = frame.backend.name};
     if (place == place_) return;
     place_ = std::move(place);
-    kernel_ = kernel_with({});
-    forced_kernel_ = kernel_with(frame.settings.forced_effects);
+    RenderSettings settings{.method = place_.slot.method, .view = place_.slot.view};
+    settings.next_event = place_.needed.has(Feature::NextEventEstimation);
+    settings.field.learning = place_.learning;
+    kernel_ = served_kernel(place_.backend, place_.needed, settings).name;
     rows_.clear();
     for (const Feature feature : kAllFeatures) {
         const bool needed = place_.needed.has(feature);
         rows_.push_back({.name = effect_names(FeatureSet{}.with(feature)).front(),
                          .reason = needed ? reason_of(feature, *frame.description, frame.settings.camera) : ""});
     }
-}
-
-std::string EffectsModel::kernel_with(FeatureSet forced) const {
-    RenderSettings settings{.method = place_.slot.method, .view = place_.slot.view, .forced_effects = forced};
-    settings.next_event = place_.needed.has(Feature::NextEventEstimation);
-    settings.field.learning = place_.learning;
-    return served_kernel(place_.backend, place_.needed, settings).name;
 }
 
 }  // namespace pl::ui

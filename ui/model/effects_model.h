@@ -22,8 +22,6 @@ public:
     const std::vector<EffectRow>& rows() const { return rows_; }
     /// The kernel that serves the needed effects.
     const std::string& kernel() const { return kernel_; }
-    /// The kernel in use, which serves effects forced on the command line, too.
-    const std::string& forced_kernel() const { return forced_kernel_; }
 
 private:
     /// All that decides rows and kernels.
@@ -36,12 +34,10 @@ private:
 
         friend bool operator==(const Place&, const Place&) = default;
     };
-    std::string kernel_with(FeatureSet forced) const;
 
     Place place_;
     std::vector<EffectRow> rows_;
     std::string kernel_;
-    std::string forced_kernel_;
 };
 
 }  // namespace pl::ui

@@ -23,8 +23,6 @@ void draw_effects_tab(const ViewerModel& model) {
         return;
     }
     text_row("Kernel", spaced(effects.kernel()), "The smallest compiled kernel that serves the needed effects.");
-    if (effects.forced_kernel() != effects.kernel())
-        text_row("In use", spaced(effects.forced_kernel()), "The kernel that serves the forced effects, too.");
     ImGui::Separator();
     for (const EffectRow& row : effects.rows())
         text_row(row.name.c_str(), row.needed() ? row.reason : "not needed", "",

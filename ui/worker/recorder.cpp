@@ -15,8 +15,6 @@ std::string details_of(const Session& session, FilmSlot slot) {
     std::string text;
     const auto add = [&](const std::string& part) { text += (text.empty() ? "" : ", ") + part; };
     if (settings.roulette != standard.roulette) add(fmt::format("roulette {}", name_of(settings.roulette)));
-    const FeatureSet needed = session.needed_features(slot);
-    if (!needed.covers(session.film_origin(slot).forced)) add("effects forced");
     if (!info_of(slot.method).uses_field) return text;
     if (settings.guiding != standard.guiding) add(fmt::format("guiding {}", name_of(settings.guiding)));
     FieldSettings field = settings.field;

@@ -123,7 +123,7 @@ TEST_CASE("Points of a scene file are in the coordinates of a mesh far from the 
                    "1], \"does\": \"grows\", \"scales\": [{\"groups\": [\"a\"], \"about\": [391234.37, "
                    "5820123.81, 30], \"by\": [1, 0, 0]}]}}}")
             .string(),
-        folder.path(), {.knobs = {{"k", 1.0f}}});
+        folder.path(), {.parameters = {{"k", "1"}}});
     const auto place = [&](const glm::vec3& point) { return scene.origin + glm::dvec3(point); };
     const auto is_near = [&](const glm::vec3& point, const glm::dvec3& wanted) {
         return glm::length(place(point) - wanted) < 1e-5;
@@ -160,6 +160,7 @@ TEST_CASE("Values of a wrong type or range are refused with file and line") {
         std::string told;
     };
     const Case sample = GENERATE(
+        Case{"\"map_kd\": \"add\"", "expected multiply or replace, got 'add'"},
         Case{"\"name\": 3", "expected a text in quotes, got '3'"}, Case{"\"camera\": []", "expected an object"},
         Case{"\"camera\": {\"eye\": [1, 2]}", "expected three numbers"},
         Case{"\"camera\": {\"eye\": [1, 2, \"3\"]}", "expected three numbers"},

@@ -39,16 +39,3 @@ TEST_CASE("Effects: what is needed has a reason") {
     REQUIRE(specular != model.rows().end());
     CHECK(specular->reason == "of 1 material: floor");
 }
-
-TEST_CASE("Effects: forced ones change the kernel in use, and none that is needed") {
-    const auto frame = frame_of_mirror();
-    EffectsModel model;
-    model.update(*frame);
-    CHECK(model.forced_kernel() == model.kernel());
-    const std::string kernel = model.kernel();
-    frame->settings.forced_effects = kEveryFeature;
-    EffectsModel forced;
-    forced.update(*frame);
-    CHECK(forced.kernel() == kernel);
-    CHECK(forced.forced_kernel() != kernel);
-}

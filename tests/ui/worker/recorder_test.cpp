@@ -43,18 +43,6 @@ TEST_CASE("Recorder: a run carries the settings that differ from the defaults, i
     CHECK(recorder.runs()->runs.front()->label.details == "16 volumes, 16 bins, not refined");
 }
 
-TEST_CASE("Recorder: a run says that effects were forced") {
-    Bench bench;
-    bench.control->pass_microseconds = 200;
-    WorkerSetup setup = bench.setup();
-    setup.settings.forced_effects = kEveryFeature;
-    RenderWorker worker(std::move(setup));
-    CHECK(eventually([&] {
-        const auto runs = worker.runs()->runs;
-        return runs.size() == 1 && runs[0]->label.details == "effects forced";
-    }));
-}
-
 TEST_CASE("Recorder: a bad reference is refused once, and kept as the one that was asked for") {
     Recorder recorder;
     const auto bad =

@@ -222,7 +222,7 @@ TEST_CASE("gltf: cameras can be chosen by name and number, and set the shape of 
         CHECK(chosen.setting("size").empty());
     }
     CHECK_THAT(test::error_message(ErrorKind::Usage, [&] { load_gltf(file, {.camera = "top"}); }),
-               contains("--scene-camera top") && contains("1 'front', 2 'side'"));
+               contains("--camera top") && contains("1 'front', 2 'side'"));
     file.root["cameras"][0]["perspective"]["yfov"] = 4;
     CHECK_THAT(gltf_refusal(file), contains("cameras/0/perspective/yfov") && contains("got 4"));
 }

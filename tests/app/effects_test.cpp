@@ -1,52 +1,12 @@
-// Effects on the command line: the needed ones with their reasons, forced ones that change no bit, and the cost of
-// the larger kernels.
+// Effects on the command line: the needed ones with their reasons, and the cost of the larger kernels.
 #include <nlohmann/json.hpp>
 
 #include "core/kernel/base/features.h"
 #include "tests/support/program/refusal.h"
 
 namespace pl::test {
-namespace {
 
 using nlohmann::json;
-
-json stats_of(const TempDir& folder, const std::string& scene, const Arguments& more) {
-    Arguments arguments{"render", scene,    "--size", "24x24", "--spp",          "2",       "--volumes",
-                        "40",     "--bins", "16",     "-o",    folder / "a.pfm", "--stats", folder / "s.json",
-                        "--nee",  "off"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    const ProgramResult result = run_program(arguments);
-    CAPTURE(result.err);
-    REQUIRE(result.code == 0);
-    return json::parse(read_all(folder / "s.json"));
-}
-
-}  // namespace
-
-TEST_CASE("forced effects change the kernel and no bit of the picture") {
-    const TempDir folder;
-    for (const char* method : {"default", "precomputed", "reinforcement"}) {
-        const json bare = stats_of(folder, "cornell", {"--method", method, "--backend", "cpu"});
-        const std::string picture = read_all(folder / "a.pfm");
-        CHECK_FALSE(bare.contains("effects_forced"));
-        for (const char* effects : {"specular", "textures,thin-lens", "all"}) {
-            const json forced =
-                stats_of(folder, "cornell", {"--method", method, "--backend", "cpu", "--force-effects", effects});
-            INFO(method << ", " << effects);
-            CHECK(read_all(folder / "a.pfm") == picture);
-            CHECK(forced["effects_needed"].empty());
-            CHECK(forced["effects_compiled"].size() >= forced["effects_forced"].size());
-            CHECK(forced["kernel"] != bare["kernel"]);
-        }
-    }
-}
-
-TEST_CASE("2: an effect that does not exist is answered with the nearest one") {
-    const TempDir folder;
-    check_refused(2, {"render", "cornell", "-o", folder / "a.png", "--force-effects", "speculr"}, "specular");
-    check_refused(2, {"render", "cornell", "-o", folder / "a.png", "--force-effects", ""}, "--force-effects");
-    CHECK(folder.names().empty());
-}
 
 TEST_CASE("info says which effects a scene needs, and why") {
     const ProgramResult text = run_program({"info", "spheres"});
