@@ -45,6 +45,20 @@ void fail_at(const std::filesystem::path& path, int line, const std::string& wha
     throw Error(ErrorKind::Input, place(path, line) + ": " + what);
 }
 
+void refuse_control_characters(std::string_view text, const std::filesystem::path& path, int line) {
+    char last = 0;
+    for (const char c : text) {
+        if (c == '\r' || c == '\n') {
+            line += c == '\n' && last == '\r' ? 0 : 1;
+        } else if (is_control(c)) {
+            fail_at(
+                path, line,
+                fmt::format("control character 0x{:02x}: this is not a text file", static_cast<unsigned>(c) & 0xffu));
+        }
+        last = c;
+    }
+}
+
 std::optional<double> parse_number(std::string_view word) {
     if (word.starts_with('+') && word.size() > 1 && word[1] != '-') {
         word.remove_prefix(1);
@@ -130,13 +144,7 @@ std::string_view LineReader::take_line() {
     const bool pair = text_.substr(end).starts_with("\r\n");
     text_.remove_prefix(std::min(end + (pair ? 2 : 1), text_.size()));
     ++lines_taken_;
-    for (const char c : line) {
-        if (is_control(c)) {
-            fail_at(
-                path_, lines_taken_,
-                fmt::format("control character 0x{:02x}: this is not a text file", static_cast<unsigned>(c) & 0xffu));
-        }
-    }
+    refuse_control_characters(line, path_, lines_taken_);
     return line;
 }
 

@@ -17,6 +17,9 @@ std::string place(const std::filesystem::path& path, int line);
 /// Throws Error(Input) "file:line: what".
 [[noreturn]] void fail_at(const std::filesystem::path& path, int line, const std::string& what);
 
+/// Throws Error(Input) with file and line for a control character in a text that begins with a line: the file is binary.
+void refuse_control_characters(std::string_view text, const std::filesystem::path& path, int line);
+
 /// A whole word as a number in C syntax, independent of the locale; no hex, "inf" or "nan". Values too small for a
 /// double read as 0. Nothing if the word is not a number or its magnitude exceeds the largest float.
 std::optional<double> parse_number(std::string_view word);
@@ -34,7 +37,7 @@ std::string lower_case(std::string_view word);
 std::string in_quotes(std::string_view word, std::size_t limit = 40);
 
 /// Iterates over the statements of a text: line ends LF, CR LF or CR; a backslash at the end continues the line;
-/// empty lines and comments are skipped. Control characters are an error: the file is binary.
+/// empty lines and comments are skipped. Control characters are an error.
 class LineReader {
 public:
     LineReader(std::string_view text, std::filesystem::path path) : text_(text), path_(std::move(path)) {}

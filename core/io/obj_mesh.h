@@ -1,8 +1,9 @@
-// The elements of an OBJ file with all indices resolved: the result of the readers of OBJ text.
+// The elements of an OBJ file with all indices resolved, and their reader.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -80,5 +81,15 @@ struct ObjMesh {
     std::vector<ObjName> libraries;     ///< arguments of each `mtllib`
     std::vector<std::string> warnings;  ///< about statements that were left out
 };
+
+/// Bytes of text that a thread reads at once.
+inline constexpr std::size_t kObjChunk = std::size_t{1} << 20;
+
+/// Reads an OBJ text; the result does not depend on `threads` and `chunk_bytes`. Indices may refer to later elements; negative ones count
+/// back from the face. Faces that use a vertex without usable numbers or that is not there are left out; so are the normals and texture
+/// points of a face if one of them is of this kind; each kind of fault with one counted warning. Throws Error(Input) with file
+/// and line for a control character and for too many elements, and if there is no usable face. `origin`: that of the mesh.
+ObjMesh read_obj_text(std::string_view text, const std::filesystem::path& path, int threads,
+                      const glm::dvec3& origin = glm::dvec3(0.0), std::size_t chunk_bytes = kObjChunk);
 
 }  // namespace pl

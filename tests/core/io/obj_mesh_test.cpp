@@ -1,16 +1,14 @@
-// The parallel reader of simple OBJ texts against the checked reading by the OBJ library: the same to the bit, or none.
-#include "core/io/obj_simple.h"
+// The reader of OBJ text: the same to the bit for any number of threads and size of chunks, and however a line is written.
+#include "core/io/obj_mesh.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <random>
 
 #include <fmt/format.h>
 
+#include "core/base/error.h"
 #include "core/io/files.h"
-#include "core/io/obj.h"
-#include "core/io/obj_library.h"
 #include "tests/support/catch.hpp"
 #include "tests/support/files/temporary_folder.h"
 #include "tests/support/scenes/bumpy_ball.h"
@@ -24,23 +22,53 @@ namespace fs = std::filesystem;
 
 const std::string kTriangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
 
-/// Checks the reading by several threads and sizes of chunks; false if the text is not simple for any of them.
-bool check_same(const std::string& text) {
-    const std::optional<ObjMesh> simple = read_simple_obj(text, 1);
+struct Reading {
+    ObjMesh mesh{};
+    std::string refusal{};
+};
+
+Reading read(const std::string& text, int threads = 1, std::size_t chunk_bytes = kObjChunk,
+             const glm::dvec3& origin = glm::dvec3(0.0)) {
+    try {
+        return {.mesh = read_obj_text(text, "s.obj", threads, origin, chunk_bytes)};
+    } catch (const Error& error) {
+        REQUIRE(error.kind() == ErrorKind::Input);
+        return {.refusal = error.what()};
+    }
+}
+
+const glm::dvec3 kFar(391240.0, -0.125, 1e9);
+
+/// Checks the reading by several threads and sizes of chunks; returns that of the whole text.
+Reading check_same(const std::string& text) {
+    Reading whole = read(text);
+    const Reading moved = read(text, 1, kObjChunk, kFar);
     for (const std::size_t bytes : {std::size_t{1}, std::size_t{7}, std::size_t{64}, std::size_t{1000}, kObjChunk}) {
         // The smallest chunks make one of each line.
         if (text.size() / bytes > 20000) continue;
-        const std::optional<ObjMesh> parts = read_simple_obj(text, 3, bytes);
-        REQUIRE(parts.has_value() == simple.has_value());
-        if (parts) CHECK(test::obj_difference(*parts, *simple).empty());
+        INFO(bytes << " bytes a chunk");
+        const Reading parts = read(text, 3, bytes);
+        CHECK(parts.refusal == whole.refusal);
+        CHECK(test::obj_difference(parts.mesh, whole.mesh).empty());
+        CHECK(test::obj_difference(read(text, 2, bytes, kFar).mesh, moved.mesh).empty());
     }
-    if (!simple) return false;
-    CHECK(test::obj_difference(*simple, read_any_obj(text, "s.obj")).empty());
-    const glm::dvec3 origin(391240.0, -0.125, 1e9);
-    const std::optional<ObjMesh> moved = read_simple_obj(text, 2, kObjChunk, origin);
-    REQUIRE(moved);
-    CHECK(test::obj_difference(*moved, read_any_obj(text, "s.obj", origin)).empty());
-    return true;
+    return whole;
+}
+
+/// Every line with numbers gets a comment, for which each of its words is looked at.
+std::string with_comments(const std::string& text) {
+    std::string result;
+    for (std::size_t at = 0; at < text.size();) {
+        const std::size_t end = std::min(text.find('\n', at), text.size());
+        std::string line = text.substr(at, end - at);
+        const bool has_return = line.ends_with('\r') && end < text.size();
+        if (has_return) line.pop_back();
+        const std::size_t first = line.find_first_not_of(" \t");
+        if (first != std::string::npos && (line[first] == 'v' || line[first] == 'f')) line += " # c";
+        result += line + (has_return ? "\r" : "") + (end < text.size() ? "\n" : "");
+        at = end + 1;
+    }
+    return result;
 }
 
 std::vector<fs::path> obj_files() {
@@ -59,7 +87,7 @@ class RandomObj {
 public:
     explicit RandomObj(std::uint32_t seed) : random_(seed) {}
 
-    /// `odds`: of 1000 lines, how many are of a form that is not simple.
+    /// `odds`: of 1000 lines, how many have something to correct or to report.
     std::string text(int lines, int odds) {
         std::string text;
         for (int i = 0; i < lines; ++i) {
@@ -195,61 +223,100 @@ private:
 
 }  // namespace
 
-TEST_CASE("Every OBJ file at hand is read in parallel as by the library") {
+TEST_CASE("Every OBJ file at hand is read without warnings, in chunks as at once, in words as by the quick way") {
     const std::vector<fs::path> files = obj_files();
     CHECK(files.size() >= 20);
     for (const fs::path& path : files) {
         INFO(path);
-        CHECK(check_same(read_text_file(path)));
+        const std::string text = read_text_file(path);
+        const Reading reading = check_same(text);
+        CHECK(reading.refusal.empty());
+        CHECK(reading.mesh.warnings.empty());
+        CHECK(test::obj_difference(read(with_comments(text), 2).mesh, reading.mesh).empty());
     }
 }
 
-TEST_CASE("A model of ten thousand triangles is read in parallel as by the library") {
+TEST_CASE("A model of ten thousand triangles is read in chunks as at once") {
     const test::TemporaryFolder folder;
-    CHECK(check_same(read_text_file(test::write_bumpy_ball(folder.path(), 51))));
+    CHECK(check_same(read_text_file(test::write_bumpy_ball(folder.path(), 51))).mesh.warnings.empty());
 }
 
-TEST_CASE("Random simple texts are read in parallel as by the library") {
+TEST_CASE("Random texts are read in chunks as at once, in words as by the quick way") {
     for (std::uint32_t seed = 0; seed < 100; ++seed) {
         INFO(seed);
         const std::string text = RandomObj(seed).text(300, 0);
         INFO(text);
-        CHECK(check_same(text));
+        const Reading reading = check_same(text);
+        CHECK(reading.refusal.empty());
+        CHECK(reading.mesh.warnings.empty());
+        const std::string commented = with_comments(text);
+        CHECK(test::obj_difference(read(commented).mesh, reading.mesh).empty());
+        CHECK(test::obj_difference(read(commented, 1, kObjChunk, kFar).mesh, read(text, 1, kObjChunk, kFar).mesh)
+                  .empty());
     }
 }
 
-TEST_CASE("Texts with odd statements are read in parallel as by the library, or not at all") {
-    int simple = 0;
+TEST_CASE("Texts with faults are read in chunks as at once, with the same warnings and the same refusals") {
+    int plain = 0;
+    int warned = 0;
+    int refused = 0;
     for (std::uint32_t seed = 0; seed < 1000; ++seed) {
         INFO(seed);
         const std::string text = RandomObj(seed).text(40, 25);
         INFO(text);
-        try {
-            simple += check_same(text) ? 1 : 0;
-        } catch (const std::runtime_error& error) {
-            FAIL(error.what());
-        }
+        const Reading reading = check_same(text);
+        ++(!reading.refusal.empty() ? refused : reading.mesh.warnings.empty() ? plain : warned);
     }
-    CHECK(simple > 100);
-    CHECK(simple < 900);
+    CHECK(plain > 100);
+    CHECK(warned > 100);
+    CHECK(refused > 10);
 }
 
-TEST_CASE("What needs a message is left to the library's reader") {
-    const std::string line = GENERATE(
-        as<std::string>{}, "v 1 2", "v 1 2 3 1", "v 1 2 nan", "v 1 2 1e19", "v 1 2 1e-400", "vn 1 2", "vt", "f 1 2",
-        "f 1 2 4", "f 1 2 -4", "f 1 2 0", "f 1 2 3/", "f 1/1 2 3", "f 1//1 2 3", "f 1 2 2147483648", "bevel on",
-        "usemtl a\\", "g \x01", "# \x7f", "v 1 2 +3", "f 1 2 3 # c", "\r\r", "usemtl a\rf 1 2 3");
-    INFO(line);
-    CHECK_FALSE(read_simple_obj(kTriangle + line + "\nf 1 2 3\n", 1));
-    CHECK_FALSE(read_simple_obj(kTriangle + "f 1 2 3\n" + line + "\n", 2, 8));
+TEST_CASE("A line means the same in all its forms") {
+    struct Case {
+        std::string odd;
+        std::string plain;
+    };
+    const Case sample = GENERATE(
+        Case{"v 1 +2 3", "v 1 2 3"}, Case{"v 1 2 1e-400", "v 1 2 0"}, Case{"v 1 2 3 # c", "v 1 2 3"},
+        Case{"v 1 \\\n2 \\\r\n3", "v 1 2 3\n\n"}, Case{"\\\nv 1 2 3", "v 1 2 3\n"}, Case{"f +1 2 3", "f 1 2 3"},
+        Case{"f 1// 2/ 3", "f 1 2 3"}, Case{"f 1/1/ 2/1/ 3/1/", "f 1/1 2/1 3/1"}, Case{"vt 1 2 x", "vt 1 2"},
+        Case{"f 1 2 3 #4", "f 1 2 3"}, Case{"usemtl a\rg b\r\r", "usemtl a\ng b\n"}, Case{"s 1 \\\n", "s 1\n"},
+        Case{"# c \\", "#"}, Case{"usemtl \"a  b\" # c", "usemtl a  b"}, Case{"usemtl a\tb", "usemtl a b"});
+    INFO(sample.odd);
+    const auto around = [](const std::string& line) { return kTriangle + "vt 0 0\n" + line + "\nf 1 2 3\n"; };
+    const Reading odd = check_same(around(sample.odd));
+    CHECK(odd.mesh.warnings.empty());
+    CHECK(test::obj_difference(odd.mesh, read(around(sample.plain)).mesh).empty());
 }
 
-TEST_CASE("Texts without faces are not simple") {
-    for (const std::string text : {"", "\n", "# nothing", "v 0 0 0\n"}) CHECK_FALSE(read_simple_obj(text, 2));
+TEST_CASE("A fault is told by the words of the face that has it") {
+    const Reading reading = check_same(kTriangle + "vn 0 0 1\nf 9 2 3//x\nf 1//y 2 3\nf 1 2 3//1\n");
+    CHECK(
+        reading.mesh.warnings ==
+        std::vector<std::string>{
+            "s.obj:5: vertex index 9 is out of range, the file has 3: this face is left out (1 in all)",
+            "s.obj:6: face corner '1//y': 'y' is not an index of a normal: this face is shown without its normals or "
+            "texture points (1 in all)"});
 }
 
-// Long decimals next to the middle of two floats, which the library alone rounds the wrong way.
-TEST_CASE("Coordinates are rounded correctly, whichever reader takes them") {
+TEST_CASE("Elements that a later chunk leaves out are missing to the faces before") {
+    const Reading reading = check_same("f 1 2 3\nf 4 2 3\nf 1 2 3//1\nf 5 2 3\n" + kTriangle + "v 1 nan 0\nvn 0\n");
+    CHECK(reading.mesh.warnings ==
+          std::vector<std::string>{
+              "s.obj:8: 'v': expected finite numbers up to 1e18, got 'nan': this vertex is left out (1 in all)",
+              "s.obj:9: 'vn': expected 3 numbers, got 1: this normal is left out (1 in all)",
+              "s.obj:2: vertex 4 is left out: this face is left out (2 in all)",
+              "s.obj:3: normal 1 is left out: this face is shown without its normals or texture points (1 in all)"});
+}
+
+TEST_CASE("The first control character of a text is told, in whichever chunk") {
+    const Reading reading = check_same(kTriangle + "f 1 2 3\n# a \\\nv 1 \\\n2 \x02 3\ng \x01\n");
+    CHECK(reading.refusal == "s.obj:7: control character 0x02: this is not a text file");
+}
+
+// Long decimals next to the middle of two floats.
+TEST_CASE("Coordinates are rounded correctly, whichever way a line takes") {
     std::mt19937 random(7);
     std::string simple;
     std::vector<float> expected;
@@ -264,10 +331,8 @@ TEST_CASE("Coordinates are rounded correctly, whichever reader takes them") {
         expected.push_back(is_above ? high : low);
     }
     simple += "\n" + kTriangle + "f -3 -2 -1\n";
-    const std::string odd = "# continued\ns 1 \\\n\n" + simple;
-    REQUIRE(read_simple_obj(simple, 2));
-    REQUIRE_FALSE(read_simple_obj(odd, 2));
-    for (const ObjMesh& mesh : {*read_simple_obj(simple, 2), read_any_obj(odd, "s.obj")}) {
+    for (const std::string& text : {simple, with_comments(simple)}) {
+        const ObjMesh mesh = read_obj_text(text, "s.obj", 2);
         std::size_t wrong = 0;
         for (std::size_t i = 0; i < expected.size(); ++i)
             wrong += mesh.positions[i / 3][static_cast<int>(i % 3)] != expected[i] ? 1 : 0;
