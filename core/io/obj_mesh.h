@@ -25,14 +25,8 @@ struct ObjCorner {
 enum class Smoothing : std::uint8_t {
     Off,
     On,
-    Inherited  ///< that of the chunk of text before
+    Inherited  ///< that of the part of the text before
 };
-
-/// Whether the first of the arguments of an `s` statement names a smoothing group.
-inline Smoothing smoothing_of(std::string_view arguments) {
-    const std::string_view argument = arguments.substr(0, arguments.find_first_of(" \t#"));
-    return argument.empty() || argument == "0" || argument == "off" ? Smoothing::Off : Smoothing::On;
-}
 
 /// Consecutive faces of a file.
 struct ObjFaces {
@@ -85,10 +79,11 @@ struct ObjMesh {
 /// Bytes of text that a thread reads at once.
 inline constexpr std::size_t kObjChunk = std::size_t{1} << 20;
 
-/// Reads an OBJ text; the result does not depend on `threads` and `chunk_bytes`. Indices may refer to later elements; negative ones count
-/// back from the face. Faces that use a vertex without usable numbers or that is not there are left out; so are the normals and texture
-/// points of a face if one of them is of this kind; each kind of fault with one counted warning. Throws Error(Input) with file
-/// and line for a control character and for too many elements, and if there is no usable face. `origin`: that of the mesh.
+/// Reads an OBJ text in chunks, twice: elements first, because a face may name a later one. The result does not depend on `threads` and
+/// `chunk_bytes`. Negative indices count back from the face. Elements without usable numbers are zeros. Faces with a vertex of this kind,
+/// or one that is not there, are left out; so are the normals and texture points of a face if one of them is of this kind; each kind of
+/// fault with one counted warning. Throws Error(Input) for a control character, with its line, for too many elements, and if there is no
+/// usable face. `origin`: that of the mesh.
 ObjMesh read_obj_text(std::string_view text, const std::filesystem::path& path, int threads,
                       const glm::dvec3& origin = glm::dvec3(0.0), std::size_t chunk_bytes = kObjChunk);
 
