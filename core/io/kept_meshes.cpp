@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "core/io/append_triangles.h"
-#include "core/io/obj_check.h"
+#include "core/io/triangle_area.h"
 #include "core/scene/affine.h"
 
 namespace pl {

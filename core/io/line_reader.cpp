@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 #include <fmt/format.h>
@@ -13,14 +14,27 @@ namespace pl {
 
 namespace {
 
-constexpr std::string_view kBlanks = " \t";
-
-std::string_view trim(std::string_view text) {
-    const std::size_t first = text.find_first_not_of(kBlanks);
-    if (first == std::string_view::npos) {
-        return {};
+const char* skip_blanks(const char* at, const char* end) {
+    while (at != end && is_blank(*at)) {
+        ++at;
     }
-    return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
+    return at;
+}
+
+const char* skip_word(const char* at, const char* end) {
+    while (at != end && !is_blank(*at)) {
+        ++at;
+    }
+    return at;
+}
+
+const char* find(char c, const char* begin, const char* end) {
+    const void* const found = begin != end ? std::memchr(begin, c, static_cast<std::size_t>(end - begin)) : nullptr;
+    return found != nullptr ? static_cast<const char*>(found) : end;
+}
+
+std::string_view between(const char* begin, const char* end) {
+    return {begin, static_cast<std::size_t>(end - begin)};
 }
 
 bool is_control(char c) {
@@ -43,6 +57,31 @@ std::string place(const std::filesystem::path& path, int line) { return fmt::for
 
 void fail_at(const std::filesystem::path& path, int line, const std::string& what) {
     throw Error(ErrorKind::Input, place(path, line) + ": " + what);
+}
+
+void refuse_control_characters(std::string_view text, const std::filesystem::path& path) {
+    const auto is_refused = [](char c) { return is_control(c) && c != '\n' && c != '\r'; };
+    // Bytes of blocks of a constant size are compared in vectors.
+    constexpr std::size_t kBlock = 256;
+    std::size_t at = 0;
+    for (unsigned char refused = 0; text.size() - at >= kBlock; at += kBlock) {
+        for (std::size_t i = at; i < at + kBlock; ++i)
+            refused = static_cast<unsigned char>(refused | (is_refused(text[i]) ? 1 : 0));
+        if (refused != 0) break;
+    }
+    while (at < text.size() && !is_refused(text[at])) {
+        ++at;
+    }
+    if (at == text.size()) {
+        return;
+    }
+    int line = 1;
+    for (std::size_t i = 0; i < at; ++i) {
+        line += text[i] == '\n' || (text[i] == '\r' && text[i + 1] != '\n') ? 1 : 0;
+    }
+    fail_at(
+        path, line,
+        fmt::format("control character 0x{:02x}: this is not a text file", static_cast<unsigned>(text[at]) & 0xffu));
 }
 
 std::optional<double> parse_number(std::string_view word) {
@@ -74,13 +113,18 @@ std::optional<std::int64_t> parse_integer(std::string_view word) {
     return stop == end && error == std::errc{} ? std::optional<std::int64_t>(value) : std::nullopt;
 }
 
+std::string_view take_word(std::string_view& text) {
+    const char* const end = text.data() + text.size();
+    const char* const begin = skip_blanks(text.data(), end);
+    const char* const stop = begin != end && *begin == '#' ? begin : skip_word(begin, end);
+    text = between(begin == stop ? end : skip_blanks(stop, end), end);
+    return between(begin, stop);
+}
+
 std::vector<std::string_view> split_words(std::string_view text) {
     std::vector<std::string_view> words;
-    std::size_t at = text.find_first_not_of(kBlanks);
-    while (at != std::string_view::npos && text[at] != '#') {
-        const std::size_t end = std::min(text.find_first_of(kBlanks, at), text.size());
-        words.push_back(text.substr(at, end - at));
-        at = text.find_first_not_of(kBlanks, end);
+    for (std::string_view word = take_word(text); !word.empty(); word = take_word(text)) {
+        words.push_back(word);
     }
     return words;
 }
@@ -100,23 +144,32 @@ std::string in_quotes(std::string_view word, std::size_t limit) {
     return fmt::format("'{}{}'", shown, word.size() > limit ? "..." : "");
 }
 
+LineReader::LineReader(std::string_view text, int lines_before)
+    : at_(text.data()), end_(at_ + text.size()), feed_(find('\n', at_, end_)), return_(find('\r', at_, end_)),
+      lines_taken_(lines_before) {}
+
 bool LineReader::next() {
-    while (!text_.empty()) {
+    while (at_ != end_) {
         line_ = lines_taken_ + 1;
-        std::string_view statement = take_line();
-        const std::string_view start = trim(statement);
-        if (start.starts_with('#')) {
+        std::string_view line = take_line();
+        const char* begin = line.data();
+        const char* end = begin + line.size();
+        begin = skip_blanks(begin, end);
+        if (begin == end || *begin == '#') {
             continue;  // a backslash at the end of a comment is part of it
         }
-        if (statement.ends_with('\\')) {
-            joined_.clear();
-            while (statement.ends_with('\\')) {
-                joined_.append(statement.substr(0, statement.size() - 1)).push_back(' ');
-                statement = take_line();
-            }
-            statement = joined_.append(statement);
+        if (end[-1] == '\\') {
+            line = join(line);
+            end = line.data() + line.size();
+            begin = skip_blanks(line.data(), end);
         }
-        split(trim(statement));
+        const char* const keyword_end = skip_word(begin, end);
+        const char* const arguments = skip_blanks(keyword_end, end);
+        while (end != arguments && is_blank(end[-1])) {
+            --end;
+        }
+        keyword_ = between(begin, keyword_end);
+        arguments_ = between(arguments, end);
         if (!keyword_.empty()) {
             return true;
         }
@@ -124,26 +177,25 @@ bool LineReader::next() {
     return false;
 }
 
+/// The next line, without its end.
 std::string_view LineReader::take_line() {
-    const std::size_t end = std::min(text_.find_first_of("\r\n"), text_.size());
-    const std::string_view line = text_.substr(0, end);
-    const bool pair = text_.substr(end).starts_with("\r\n");
-    text_.remove_prefix(std::min(end + (pair ? 2 : 1), text_.size()));
+    feed_ = feed_ < at_ ? find('\n', at_, end_) : feed_;
+    return_ = return_ < at_ ? find('\r', at_, end_) : return_;
+    const std::string_view line = between(at_, std::min(feed_, return_));
+    const char* const last = feed_ - return_ == 1 ? feed_ : line.data() + line.size();  // CR LF is one end
+    at_ = last == end_ ? end_ : last + 1;
     ++lines_taken_;
-    for (const char c : line) {
-        if (is_control(c)) {
-            fail_at(
-                path_, lines_taken_,
-                fmt::format("control character 0x{:02x}: this is not a text file", static_cast<unsigned>(c) & 0xffu));
-        }
-    }
     return line;
 }
 
-void LineReader::split(std::string_view statement) {
-    const std::size_t end = std::min(statement.find_first_of(kBlanks), statement.size());
-    keyword_ = statement.substr(0, end);
-    arguments_ = trim(statement.substr(end));
+/// A line that ends with a backslash, with those that continue it.
+std::string_view LineReader::join(std::string_view line) {
+    joined_.clear();
+    while (line.ends_with('\\')) {
+        joined_.append(line.substr(0, line.size() - 1)).push_back(' ');
+        line = take_line();
+    }
+    return joined_.append(line);
 }
 
 }  // namespace pl

@@ -86,7 +86,9 @@ const typename Keys::value_type* find_key(const Keys& keys, std::string_view nam
 class MtlReader {
 public:
     MtlReader(std::string_view text, const std::filesystem::path& path, std::vector<std::string>& warnings)
-        : path_(path), reader_(text, path), warnings_(warnings) {}
+        : path_(path), reader_(text), warnings_(warnings) {
+        refuse_control_characters(text, path);
+    }
 
     std::vector<MtlEntry> run() {
         while (reader_.next()) {

@@ -8,9 +8,7 @@
 #include "core/base/error.h"
 #include "core/base/parallel_chunks.h"
 #include "core/io/files.h"
-#include "core/io/obj_library.h"
 #include "core/io/obj_materials.h"
-#include "core/io/obj_simple.h"
 #include "core/io/obj_smooth.h"
 #include "core/io/obj_triangles.h"
 #include "core/scene/far_origin.h"
@@ -18,11 +16,6 @@
 namespace pl {
 
 namespace {
-
-ObjMesh read_text(std::string_view text, const std::filesystem::path& path, const glm::dvec3& origin) {
-    std::optional<ObjMesh> simple = read_simple_obj(text, usable_threads(), kObjChunk, origin);
-    return simple ? std::move(*simple) : read_any_obj(text, path, origin);
-}
 
 /// far_origin() of the vertices of all faces.
 glm::dvec3 origin_near(const ObjMesh& mesh) {
@@ -48,9 +41,9 @@ glm::dvec3 origin_near(const ObjMesh& mesh) {
 
 ObjMesh read_obj_mesh(const std::filesystem::path& path) {
     const std::string text = read_text_file(path);
-    ObjMesh mesh = read_text(text, path, glm::dvec3(0.0));
+    ObjMesh mesh = read_obj_text(text, path, usable_threads());
     const glm::dvec3 origin = origin_near(mesh);
-    return origin == glm::dvec3(0.0) ? std::move(mesh) : read_text(text, path, origin);
+    return origin == glm::dvec3(0.0) ? std::move(mesh) : read_obj_text(text, path, usable_threads(), origin);
 }
 
 SceneDescription load_obj(const std::filesystem::path& path, MeshGroups* groups, MapKd map_kd, ObjNormals normals) {

@@ -1,4 +1,4 @@
-// Loader of Wavefront OBJ with its MTL files, by tinyobjloader.
+// Loader of Wavefront OBJ with its MTL files.
 #pragma once
 
 #include <cstdint>

@@ -1,8 +1,9 @@
-// The elements of an OBJ file with all indices resolved: the result of the readers of OBJ text.
+// The elements of an OBJ file with all indices resolved, and their reader.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,14 +25,8 @@ struct ObjCorner {
 enum class Smoothing : std::uint8_t {
     Off,
     On,
-    Inherited  ///< that of the chunk of text before
+    Inherited  ///< that of the part of the text before
 };
-
-/// Whether the first of the arguments of an `s` statement names a smoothing group.
-inline Smoothing smoothing_of(std::string_view arguments) {
-    const std::string_view argument = arguments.substr(0, arguments.find_first_of(" \t#"));
-    return argument.empty() || argument == "0" || argument == "off" ? Smoothing::Off : Smoothing::On;
-}
 
 /// Consecutive faces of a file.
 struct ObjFaces {
@@ -80,5 +75,16 @@ struct ObjMesh {
     std::vector<ObjName> libraries;     ///< arguments of each `mtllib`
     std::vector<std::string> warnings;  ///< about statements that were left out
 };
+
+/// Bytes of text that a thread reads at once.
+inline constexpr std::size_t kObjChunk = std::size_t{1} << 20;
+
+/// Reads an OBJ text in chunks, twice: elements first, because a face may name a later one. The result does not depend on `threads` and
+/// `chunk_bytes`. Negative indices count back from the face. Elements without usable numbers are zeros. Faces with a vertex of this kind,
+/// or one that is not there, are left out; so are the normals and texture points of a face if one of them is of this kind; each kind of
+/// fault with one counted warning. Throws Error(Input) for a control character, with its line, for too many elements, and if there is no
+/// usable face. `origin`: that of the mesh.
+ObjMesh read_obj_text(std::string_view text, const std::filesystem::path& path, int threads,
+                      const glm::dvec3& origin = glm::dvec3(0.0), std::size_t chunk_bytes = kObjChunk);
 
 }  // namespace pl

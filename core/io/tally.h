@@ -29,10 +29,10 @@ struct Tally {
         ++count;
     }
 
-    /// Adds the statements of lines below those of this one.
-    void add(const Tally& later) {
+    /// Adds the statements of lines below those of this one, whose lines count from behind `lines_before`.
+    void add(const Tally& later, int lines_before = 0) {
         if (count == 0) {
-            first_line = later.first_line;
+            first_line = later.first_line + lines_before;
             first = later.first;
         }
         count += later.count;

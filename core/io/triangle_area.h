@@ -1,4 +1,4 @@
-// Whether a triangle is large enough to be one.
+// Whether a triangle is large enough to be one, and the coordinates for which that can be told.
 #pragma once
 
 #include <algorithm>
@@ -7,6 +7,9 @@
 #include <glm/glm.hpp>
 
 namespace pl {
+
+/// Of a coordinate: areas must fit in a float.
+inline constexpr double kLargestCoordinate = 1e18;
 
 /// Whether a triangle has a normal: the squared length of the cross product is a normal float, or, in scenes of any size, above the
 /// rounding errors of corners on a line.

@@ -18,8 +18,7 @@
 #include "core/io/load_scene.h"
 #include "core/io/mitsuba/ply.h"
 #include "core/io/mitsuba/serialized.h"
-#include "core/io/obj_library.h"
-#include "core/io/obj_simple.h"
+#include "core/io/obj_mesh.h"
 #include "core/io/texture_file.h"
 #include "core/scene/pack_scene.h"
 #include "tests/support/scenes/obj_difference.h"
@@ -104,20 +103,23 @@ void load_and_pack(const fs::path& path, const LoadSettings& asked = {}) {
 /// Behind this line of the input begins the material file.
 constexpr std::string_view kCut = "\n%%%\n";
 
-/// A text that is simple in chunks is so as a whole, and read as by the library.
-void compare_readers(std::string_view text) {
+/// A text is read in chunks as it is at once, or refused in the same words.
+void compare_chunks(std::string_view text, const glm::dvec3& origin) {
+    const auto read = [&](std::size_t chunk_bytes, std::string& refusal) {
+        try {
+            return read_obj_text(text, "s.obj", 1, origin, chunk_bytes);
+        } catch (const Error& error) {
+            refusal = error.what();
+            return ObjMesh{};
+        }
+    };
     constexpr std::size_t kSmallChunk = 16;
-    const std::optional<ObjMesh> chunks = read_simple_obj(text, 1, kSmallChunk);
-    const std::optional<ObjMesh> whole = read_simple_obj(text, 1);
-    if (chunks.has_value() != whole.has_value()) fail("a text that is simple in one size of chunks only");
-    if (!chunks) return;
-    for (const ObjMesh& other : {*whole, read_any_obj(text, "s.obj")})
-        if (const std::string difference = obj_difference(*chunks, other); !difference.empty())
-            fail(("readers that differ in " + difference).c_str());
-    const glm::dvec3 origin(391240.0, -1e15, 0.125);
-    const std::string difference =
-        obj_difference(*read_simple_obj(text, 1, kSmallChunk, origin), read_any_obj(text, "s.obj", origin));
-    if (!difference.empty()) fail(("readers from another origin that differ in " + difference).c_str());
+    std::string refusal_in_chunks;
+    std::string refusal;
+    const ObjMesh chunks = read(kSmallChunk, refusal_in_chunks);
+    const std::string difference = obj_difference(chunks, read(kObjChunk, refusal));
+    if (refusal_in_chunks != refusal) fail("another refusal in chunks");
+    if (!difference.empty()) fail(("chunks that differ in " + difference).c_str());
 }
 
 void run_obj(std::string_view bytes) {
@@ -126,7 +128,8 @@ void run_obj(std::string_view bytes) {
     folder().write("m.mtl", has_materials ? bytes.substr(cut + kCut.size()) : std::string_view{});
     const fs::path path = folder().write("s.obj", bytes.substr(0, cut));
     read_or_refuse([&] { load_and_pack(path); });
-    compare_readers(bytes.substr(0, cut));
+    compare_chunks(bytes.substr(0, cut), glm::dvec3(0.0));
+    compare_chunks(bytes.substr(0, cut), glm::dvec3(391240.0, -1e15, 0.125));
 }
 
 void run_json(std::string_view bytes) {

@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include "core/io/obj_check.h"
 #include "core/io/triangle_area.h"
 
 namespace pl {

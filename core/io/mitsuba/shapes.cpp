@@ -15,9 +15,9 @@
 #include "core/io/mitsuba/round_shapes.h"
 #include "core/io/mitsuba/serialized.h"
 #include "core/io/obj.h"
-#include "core/io/obj_check.h"
 #include "core/io/obj_smooth.h"
 #include "core/io/obj_triangles.h"
+#include "core/io/triangle_area.h"
 
 namespace pl {
 namespace {

@@ -131,12 +131,14 @@ std::string fault_of(const WavelengthSpectrum& spectrum) {
 WavelengthSpectrum read_spectrum(const std::filesystem::path& path) {
     WavelengthSpectrum spectrum;
     const std::string text = read_text_file(path);
-    for (LineReader line(text, path); line.next();) {
+    refuse_control_characters(text, path);
+    for (LineReader line(text); line.next();) {
         const auto wavelength = parse_number(line.keyword());
         const auto value = parse_number(line.arguments());
         if (!wavelength || !value)
-            line.fail(fmt::format("expected a wavelength and a value, got {} and {}", in_quotes(line.keyword()),
-                                  in_quotes(line.arguments())));
+            fail_at(path, line.line(),
+                    fmt::format("expected a wavelength and a value, got {} and {}", in_quotes(line.keyword()),
+                                in_quotes(line.arguments())));
         spectrum.wavelengths.push_back(*wavelength);
         spectrum.values.push_back(*value);
     }

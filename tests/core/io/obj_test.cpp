@@ -350,14 +350,14 @@ TEST_CASE("A material without a name is that of a usemtl without one") {
 
 TEST_CASE("Geometry far from the origin keeps its shape: it is moved in doubles, with one warning") {
     const std::string rest = "usemtl red\nvn 0 0 1\nf 1//1 2//1 3//1 4//1\nv 0 0 0\n";
-    const auto house = [&](double x, double y, const std::string& more) {
-        std::string text = "mtllib m.mtl\n" + more;
+    const auto house = [&](double x, double y, const std::string& sign) {
+        std::string text = "mtllib m.mtl\n";
         for (const glm::dvec2 corner : {glm::dvec2(0.37, 0.81), {0.57, 0.81}, {0.57, 10.81}, {0.37, 10.81}})
-            text += fmt::format("v {:.3f} {:.3f} 30\n", x + corner.x, y + corner.y);
+            text += fmt::format("v {}{:.3f} {:.3f} 30\n", sign, x + corner.x, y + corner.y);
         return load(text + rest);
     };
-    for (const std::string more : {"", "s off \\\n\n"}) {  // by either reader
-        const SceneDescription scene = house(391234.0, 5820123.0, more);
+    for (const std::string sign : {"", "+"}) {  // read as usual, and word by word
+        const SceneDescription scene = house(391234.0, 5820123.0, sign);
         CHECK(scene.origin.x == Approx(391234.0).margin(8.0));
         CHECK(scene.origin.y == Approx(5820123.0).margin(16.0));
         CHECK(scene.origin.z == 0.0);
@@ -370,7 +370,7 @@ TEST_CASE("Geometry far from the origin keeps its shape: it is moved in doubles,
         REQUIRE(scene.warnings.size() == 1);
         CHECK_THAT(scene.warnings[0], contains("s.obj: far from the origin, moved by"));
         // Near the origin every bit is kept.
-        const SceneDescription near = house(0.0, 0.0, more);
+        const SceneDescription near = house(0.0, 0.0, sign);
         CHECK(near.origin == glm::dvec3(0.0));
         CHECK(near.positions[0] == glm::vec3(0.37f, 0.81f, 30.0f));
         CHECK(near.warnings.empty());

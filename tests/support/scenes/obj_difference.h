@@ -1,4 +1,4 @@
-// Comparison of the meshes that two readers make of an OBJ text.
+// Comparison of the meshes that two readings make of an OBJ text.
 #pragma once
 
 #include <cstring>
