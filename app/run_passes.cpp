@@ -74,7 +74,7 @@ private:
                                      : fmt::format("{} spp", session_.passes(slot_));
         text += fmt::format(", {}", duration_text(seconds()));
         if (target_ != nullptr && target_->measured())
-            text += fmt::format(", {} {:.2g} of {:.2g}", target_->word(), *target_->measured(), target_->target());
+            text += fmt::format(", noise {:.2g} of {:.2g}", *target_->measured(), target_->target());
         return text;
     }
 
