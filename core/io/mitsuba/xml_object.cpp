@@ -175,12 +175,12 @@ std::optional<std::string> MitsubaObject::text(const std::string& name) const {
     return object ? std::optional(object.attribute("value")) : std::nullopt;
 }
 
-std::optional<glm::vec3> MitsubaObject::point(const std::string& name) const {
+std::optional<glm::dvec3> MitsubaObject::point(const std::string& name) const {
     const MitsubaObject object = property(name);
     if (!object) return std::nullopt;
     if (const std::vector<double> values = object.numbers(object.attribute("value")); values.size() == 3)
-        return glm::vec3(values[0], values[1], values[2]);
-    return glm::vec3(object.number_or("x", 0.0), object.number_or("y", 0.0), object.number_or("z", 0.0));
+        return glm::dvec3(values[0], values[1], values[2]);
+    return glm::dvec3(object.number_or("x", 0.0), object.number_or("y", 0.0), object.number_or("z", 0.0));
 }
 
 fs::path MitsubaObject::file(const std::string& name) const { return file_named(name, text(name).value_or("")); }
