@@ -228,9 +228,10 @@ glm::dmat4 MitsubaObject::step() const {
         return glm::rotate(glm::dmat4(1.0), glm::radians(number_or("angle", 0.0)),
                            values.size() == 3 ? vector("value", 0.0) : xyz);
     }
-    if (kind == "matrix" && values.size() == 16) {
-        glm::dmat4 matrix;
-        for (int i = 0; i < 16; ++i) matrix[i % 4][i / 4] = values[static_cast<std::size_t>(i)];
+    if (kind == "matrix" && (values.size() == 16 || values.size() == 9)) {
+        const int side = values.size() == 16 ? 4 : 3;
+        glm::dmat4 matrix(1.0);
+        for (int i = 0; i < side * side; ++i) matrix[i % side][i / side] = values[static_cast<std::size_t>(i)];
         return matrix;
     }
     if (kind == "lookat" || kind == "look_at") {
