@@ -12,6 +12,7 @@
 #include "app/make_backend.h"
 #include "app/version.h"
 #include "core/base/error.h"
+#include "core/base/memory.h"
 #include "mpi/job.h"
 #include "mpi/mpi_backend.h"
 #include "mpi/rank_device.h"
@@ -70,6 +71,7 @@ int run_guarded(const std::vector<std::string>& arguments, Console& console) {
 std::unique_ptr<Communicator> join(Console& console, int& code) {
     try {
         choose_device();
+        set_processes_here(ranks_on_this_machine());
         return join_job(program_identity());
     } catch (const Error& error) {
         code = tells_why_not_joined() ? tell(error.what(), error.kind(), console) : static_cast<int>(error.kind());

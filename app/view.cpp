@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "app/field_files.h"
+#include "app/interrupt.h"
 #include "app/make_backend.h"
 #include "app/open_scene.h"
 #include "app/parse_values.h"
@@ -148,8 +149,11 @@ int run_view(const CommandLine& line, Console& console) {
     viewer.backends = backends.choices();
     add_functions(viewer, backends, options);
     viewer.field = fields.take(*loaded.scene, options);
+    const InterruptGuard interrupt;
+    viewer.stop = interrupt.flag();
     try {
-        return ui::run_viewer(viewer);
+        const int code = ui::run_viewer(viewer);
+        return interrupt.raised() ? kExitInterrupted : code;
     } catch (const Error& error) {
         if (error.kind() != ErrorKind::Unavailable) throw;
         throw Error(ErrorKind::Unavailable,

@@ -165,6 +165,7 @@ RenderSettings Viewer::first_settings(const SceneDescription& scene) const {
 }
 
 bool Viewer::is_over() {
+    if (options_.stop != nullptr && *options_.stop) return true;
     bool& quit = model_.window().requests.quit;
     if (script_ && script_->ignores_quit()) quit = false;
     return quit;

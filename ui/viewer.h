@@ -130,6 +130,7 @@ struct ViewerOptions {
     std::filesystem::path remember_folder;          ///< of viewer.json; empty: the system's folder for such files
     std::optional<std::filesystem::path> script;    ///< scripted input, see ui/script/script.h
     std::optional<std::filesystem::path> ui_trace;  ///< one JSON object per UI frame; percentiles on stderr
+    const StopFlag* stop = nullptr;                 ///< raised: the window is closed
 
     /// In the order of the key that steps through them. One should be "cpu": it takes over when another fails.
     BackendChoices backends{{"cpu", "", ""}};

@@ -19,6 +19,9 @@ namespace fs = std::filesystem;
 
 constexpr std::uint64_t kNoLimit = std::numeric_limits<std::uint64_t>::max();
 
+// A fact of the whole process.
+std::uint64_t processes_here = 1;
+
 /// Empty if the file cannot be read.
 std::string text_of(const fs::path& file) {
     std::ifstream stream(file);
@@ -121,13 +124,20 @@ std::uint64_t memory_left_by_files(const fs::path& root) {
 
 std::uint64_t memory_left() { return std::min(memory_left_by_files("/"), address_space_left()); }
 
-void require_memory(std::string_view subject, std::uint64_t bytes, ErrorKind kind) {
+void set_processes_here(int count) { processes_here = static_cast<std::uint64_t>(std::max(1, count)); }
+
+void require_memory(std::string_view subject, std::uint64_t bytes, ErrorKind kind, std::uint64_t bytes_of_each) {
     constexpr std::uint64_t kLittle = std::uint64_t{1} << 20;  // not worth a look at the system
-    if (bytes < kLittle) return;
+    const bool is_beyond = bytes_of_each > kNoLimit / processes_here;
+    const std::uint64_t all = is_beyond ? kNoLimit : sum_of(bytes, bytes_of_each * processes_here);
+    if (all < kLittle) return;
     const std::uint64_t left = memory_left();
-    if (bytes <= left) return;
-    throw MemoryError(kind, fmt::format("{}: expected to need at most the memory that is left here, {}, got {}",
-                                        subject, bytes_text(left), bytes_text(bytes)));
+    if (all <= left) return;
+    const std::string where = bytes_of_each > 0 && processes_here > 1
+                                  ? fmt::format(" in the {} processes of this machine", processes_here)
+                                  : "";
+    throw MemoryError(kind, fmt::format("{}: expected to need at most the memory that is left here, {}, got {}{}",
+                                        subject, bytes_text(left), bytes_text(all), where));
 }
 
 }  // namespace pl

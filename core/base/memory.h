@@ -24,7 +24,11 @@ std::uint64_t memory_left();
 /// (version 2 or 1) of the process and all above them. Memory that only caches files is not in use.
 std::uint64_t memory_left_by_files(const std::filesystem::path& root);
 
-/// Throws MemoryError if `subject` needs more bytes than are left. Of less than a megabyte it takes no notice.
-void require_memory(std::string_view subject, std::uint64_t bytes, ErrorKind kind);
+/// Tells how many processes share the work on this machine, each with arrays of its own; one until then.
+void set_processes_here(int count);
+
+/// Throws MemoryError if `subject` needs more bytes than are left: some once, and some in each process that shares the work here, since
+/// all make room at the same time. Of less than a megabyte it takes no notice.
+void require_memory(std::string_view subject, std::uint64_t bytes, ErrorKind kind, std::uint64_t bytes_of_each = 0);
 
 }  // namespace pl

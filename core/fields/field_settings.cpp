@@ -88,8 +88,8 @@ void require_field_memory(const FieldSettings& settings, std::size_t light_clust
         bytes_of_network(settings) + static_cast<std::uint64_t>(volumes) * bytes_of_each(settings, light_clusters);
     if (settings.representation == Representation::SdTree)
         bytes += affordable_nodes(settings, light_clusters) * sd_tree_bytes_per_node();
-    require_memory(fmt::format("{} radiance volumes of {} directions", volumes, settings.bins), bytes,
-                   ErrorKind::Usage);
+    require_memory(fmt::format("{} radiance volumes of {} directions", volumes, settings.bins), 0, ErrorKind::Usage,
+                   bytes);
 }
 
 int volume_count(const FieldSettings& settings, std::size_t light_clusters) {

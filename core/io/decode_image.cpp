@@ -27,7 +27,7 @@ void require_texture_size(const fs::path& path, long long width, long long heigh
         fail_image(path, fmt::format("a texture of {}x{}: sides up to {} and {} texels are supported", width, height,
                                      kMostTextureSide, kMostTexels));
     }
-    constexpr std::uint64_t kTexelBytes = 40;  // as decoded, as four floats, and as packed
+    constexpr std::uint64_t kTexelBytes = 44;  // as decoded, with its alpha, as four floats, and as packed
     require_memory(path.string(), static_cast<std::uint64_t>(width * height) * kTexelBytes, ErrorKind::Input);
 }
 
@@ -134,11 +134,13 @@ private:
 };
 
 DecodedImage decode_linear_image(const std::string& bytes, const fs::path& path, std::vector<std::string>& warnings) {
-    const LinearImage linear =
-        decode_linear(bytes, {.path = path, .require_size = require_texture_size, .warnings = &warnings});
+    std::vector<float> alpha;
+    const LinearImage linear = decode_linear(
+        bytes, {.path = path, .require_size = require_texture_size, .warnings = &warnings, .alpha = &alpha});
     DecodedImage image{.width = linear.width, .height = linear.height, .is_ldr = false};
     image.texels.reserve(linear.pixels.size());
-    for (const glm::vec3& pixel : linear.pixels) image.texels.emplace_back(pixel, 1.0f);
+    for (std::size_t i = 0; i < linear.pixels.size(); ++i)
+        image.texels.emplace_back(linear.pixels[i], alpha.empty() ? 1.0f : alpha[i]);
     return image;
 }
 

@@ -28,6 +28,7 @@
 #include "core/io/exr_layers.h"
 #include "core/io/files.h"
 #include "core/io/image_checks.h"
+#include "core/io/primaries.h"
 
 namespace pl {
 namespace {
@@ -125,14 +126,11 @@ ExrPart part_of(const Imf::Header& header) {
     return part;
 }
 
-bool has_other_primaries(const Imf::Header& header) {
-    if (!Imf::hasChromaticities(header)) return false;
-    constexpr float kSame = 0.01f;
+Primaries primaries_of(const Imf::Header& header) {
+    if (!Imf::hasChromaticities(header)) return kSrgbPrimaries;
     const Imf::Chromaticities& file = Imf::chromaticities(header);
-    const Imf::Chromaticities standard;
-    const auto differ = [](const Imath::V2f& a, const Imath::V2f& b) { return !((a - b).length() < kSame); };
-    return differ(file.red, standard.red) || differ(file.green, standard.green) || differ(file.blue, standard.blue) ||
-           differ(file.white, standard.white);
+    const auto point = [](const Imath::V2f& xy) { return glm::dvec2(glm::vec2(xy.x, xy.y)); };
+    return {point(file.red), point(file.green), point(file.blue), point(file.white)};
 }
 
 class ExrDecoder {
@@ -148,7 +146,10 @@ public:
         require_size(header);
         tell(header, layer);
         read_metadata(header);
-        return layer.is_luminance_chroma ? read_luminance_chroma(header, layer) : read_colors(file, layer);
+        LinearImage image =
+            layer.is_luminance_chroma ? read_luminance_chroma(header, layer) : read_colors(file, layer);
+        if (!layer.is_gray()) convert_to_srgb(primaries_of(header), settings_, image);
+        return image;
     }
 
 private:
@@ -160,16 +161,10 @@ private:
         if (header.hasTileDescription()) require_plausible(settings_.path, extent(0), header.tileDescription().ySize);
     }
 
-    void note(const std::string& what) const {
-        if (settings_.warnings != nullptr)
-            settings_.warnings->push_back(fmt::format("{}: {}", settings_.path.string(), what));
-    }
-
     void tell(const Imf::Header& header, const ExrLayer& layer) const {
-        if (!layer.note.empty()) note(layer.note);
+        if (!layer.note.empty()) settings_.note(layer.note);
         if (header.dataWindow() != header.displayWindow())
-            note("its data window, not its display window, is the image");
-        if (has_other_primaries(header)) note("its primaries are not those of sRGB: colors count as if they were");
+            settings_.note("its data window, not its display window, is the image");
     }
 
     void read_metadata(const Imf::Header& header) const {
@@ -202,21 +197,27 @@ private:
         return image;
     }
 
-    static LinearImage read_colors(Imf::MultiPartInputFile& file, const ExrLayer& layer) {
+    LinearImage read_colors(Imf::MultiPartInputFile& file, const ExrLayer& layer) const {
         Imf::InputPart part(file, layer.part);
-        const auto read_rows = [&](const Imath::Box2i& block, glm::vec3* rows) {
+        const auto read_rows = [&](const Imath::Box2i& block, glm::vec4* rows) {
             Imf::FrameBuffer buffer;
+            const auto insert = [&](const std::string& channel, float* first) {
+                buffer.insert(channel, Imf::Slice::Make(Imf::FLOAT, first, block, sizeof(glm::vec4)));
+            };
             // Gray has one channel, which serves all three colors: a buffer has each channel once.
-            for (std::size_t c = 0; c < 3; ++c)
-                buffer.insert(layer.channels[c],
-                              Imf::Slice::Make(Imf::FLOAT, &rows->x + c, block, sizeof(glm::vec3)));
+            for (std::size_t c = 0; c < 3; ++c) insert(layer.channels[c], &rows->x + c);
+            if (!layer.alpha.empty()) insert(layer.alpha, &rows->w);
             part.setFrameBuffer(buffer);
             part.readPixels(block.min.y, block.max.y);
         };
-        const bool is_gray = layer.channels[0] == layer.channels[2];
-        return read_in_blocks<glm::vec3>(part.header().dataWindow(), read_rows, [&](const glm::vec3& pixel) {
-            return is_gray ? glm::vec3(pixel.z) : pixel;
+        return read_in_blocks<glm::vec4>(part.header().dataWindow(), read_rows, [&](const glm::vec4& pixel) {
+            keep_alpha(layer, pixel.w);
+            return layer.is_gray() ? glm::vec3(pixel.z) : glm::vec3(pixel);
         });
+    }
+
+    void keep_alpha(const ExrLayer& layer, float alpha) const {
+        if (settings_.alpha != nullptr && !layer.alpha.empty()) settings_.alpha->push_back(alpha);
     }
 
     /// The library converts them, in half precision.
@@ -234,8 +235,10 @@ private:
                 width);
             file.readPixels(block.min.y, block.max.y);
         };
-        return read_in_blocks<Imf::Rgba>(header.dataWindow(), read_rows,
-                                         [](const Imf::Rgba& pixel) { return glm::vec3(pixel.r, pixel.g, pixel.b); });
+        return read_in_blocks<Imf::Rgba>(header.dataWindow(), read_rows, [&](const Imf::Rgba& pixel) {
+            keep_alpha(layer, pixel.a);
+            return glm::vec3(pixel.r, pixel.g, pixel.b);
+        });
     }
 
     const LinearSettings& settings_;

@@ -59,7 +59,7 @@ std::string full_channel(const ExrPart& part, const std::string& layer, std::str
 }
 
 std::optional<Candidate> candidate_of(const ExrPart& part, int number, const std::string& name) {
-    ExrLayer layer{.part = number, .name = name, .channels = {}};
+    ExrLayer layer{.part = number, .name = name, .channels = {}, .alpha = full_channel(part, name, "a")};
     for (std::size_t i = 0; i < 3; ++i)
         layer.channels[i] = full_channel(part, name, std::string_view("rgb").substr(i, 1));
     if (std::none_of(layer.channels.begin(), layer.channels.end(),

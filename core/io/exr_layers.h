@@ -25,8 +25,11 @@ struct ExrLayer {
     int part = 0;
     std::string name{};                   ///< "" for that of the channels without a prefix
     std::array<std::string, 3> channels;  ///< red, green and blue; the same one for gray
+    std::string alpha{};                  ///< "" without one
     bool is_luminance_chroma = false;
     std::string note{};  ///< which one it is, if others would have done
+
+    bool is_gray() const { return !is_luminance_chroma && channels[0] == channels[2]; }
 };
 
 /// The first of these that there is, by the order of the parts, then of the channels: R, G and B without a prefix; those

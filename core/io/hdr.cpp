@@ -11,6 +11,7 @@
 
 #include "core/io/image_checks.h"
 #include "core/io/line_reader.h"
+#include "core/io/primaries.h"
 
 namespace pl {
 namespace {
@@ -52,17 +53,14 @@ public:
             read_line(line);
             texels.insert(texels.end(), line.begin(), line.end());
         }
-        return place(texels, layout);
+        LinearImage image = place(texels, layout);
+        convert_to_srgb(primaries_, settings_, image);
+        return image;
     }
 
 private:
     [[noreturn]] void fail(const std::string& why) const { fail_image(settings_.path, why); }
     [[noreturn]] void fail_line() const { fail("damaged: truncated, or with an invalid scanline"); }
-
-    void note(const std::string& what) const {
-        if (settings_.warnings != nullptr)
-            settings_.warnings->push_back(fmt::format("{}: {}", settings_.path.string(), what));
-    }
 
     void read_header() {
         double exposure = 1.0;
@@ -77,9 +75,25 @@ private:
             if (name == "EXPOSURE" && !values.empty()) exposure *= parse_number(values[0]).value_or(1.0);
             if (name == "COLORCORR")
                 for (const std::string_view value : values) corrects = corrects || parse_number(value) != 1.0;
+            if (name == "PRIMARIES") read_primaries(values);
         }
-        if (exposure != 1.0) note(fmt::format("its exposure of {:g} is left out: texels count as stored", exposure));
-        if (corrects) note("its correction of colors is left out: texels count as stored");
+        if (exposure != 1.0)
+            settings_.note(fmt::format("its exposure of {:g} is left out: texels count as stored", exposure));
+        if (corrects) settings_.note("its correction of colors is left out: texels count as stored");
+    }
+
+    void read_primaries(const std::vector<std::string_view>& words) {
+        std::array<double, 8> xy{};
+        bool is_whole = words.size() == xy.size();
+        for (std::size_t i = 0; is_whole && i < xy.size(); ++i) {
+            const std::optional<double> value = parse_number(words[i]);
+            is_whole = value.has_value();
+            xy[i] = value.value_or(0.0);
+        }
+        if (is_whole)
+            primaries_ = {{xy[0], xy[1]}, {xy[2], xy[3]}, {xy[4], xy[5]}, {xy[6], xy[7]}};
+        else
+            settings_.note("expected eight numbers for its primaries: counted as those of sRGB");
     }
 
     /// "-Y HEIGHT +X WIDTH": the axis of scanlines first; signs say how the coordinates go on, y up and x to the right.
@@ -183,6 +197,7 @@ private:
 
     std::string_view rest_;
     const LinearSettings& settings_;
+    Primaries primaries_ = kSrgbPrimaries;
 };
 
 }  // namespace

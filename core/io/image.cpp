@@ -25,6 +25,10 @@ ImageKind image_kind(const std::filesystem::path& path) {
                             path.string(), suffix.empty() ? "none" : suffix));
 }
 
+void LinearSettings::note(const std::string& what) const {
+    if (warnings != nullptr) warnings->push_back(fmt::format("{}: {}", path.string(), what));
+}
+
 LinearImage decode_linear(const std::string& bytes, const LinearSettings& settings) {
     const ImageKind kind = image_kind_of(bytes, settings.path);
     switch (kind) {

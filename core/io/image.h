@@ -108,6 +108,10 @@ struct LinearSettings {
     void (*require_size)(const std::filesystem::path& path, long long width, long long height) = require_plausible;
     ImageMetadata* metadata = nullptr;
     std::vector<std::string>* warnings = nullptr;  ///< receives what the reader chose or left out
+    std::vector<float>* alpha = nullptr;           ///< receives that of each pixel, if the file has it
+
+    /// A warning about the file.
+    void note(const std::string& what) const;
 };
 
 /// EXR, PFM or Radiance HDR, by the bytes. 8-bit pictures are refused: tone-mapped and clipped values cannot be
@@ -115,7 +119,7 @@ struct LinearSettings {
 LinearImage decode_linear(const std::string& bytes, const LinearSettings& settings);
 
 /// The layer of an EXR file that choose_exr_layer() names, without subsampled channels but those of luminance and
-/// chroma. The image is the data window.   [OpenEXR, "Technical Introduction"]
+/// chroma. The image is the data window, of colors as they are stored, times alpha.   [OpenEXR, "Technical Introduction"]
 LinearImage decode_exr(const std::string& bytes, const LinearSettings& settings);
 
 /// PFM of colors ("PF") or gray ("Pf"), of either byte order.

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "core/scene/pack_scene.h"
+
 namespace pl {
 
 glm::dvec3 far_origin(const glm::dvec3& low, const glm::dvec3& high) {
@@ -20,6 +22,13 @@ glm::dvec3 far_origin(const glm::dvec3& low, const glm::dvec3& high) {
         origin[axis] = std::round(middle / unit) * unit;
     }
     return origin;
+}
+
+glm::dvec3 far_origin(const SceneDescription& scene) {
+    Bounds bounds = bounds_of(scene);
+    if (bounds.empty())
+        for (const glm::vec3& position : scene.positions) bounds.add(position);
+    return bounds.empty() ? glm::dvec3(0.0) : far_origin(glm::dvec3(bounds.low), glm::dvec3(bounds.high));
 }
 
 void tell_origin(SceneDescription& scene) {

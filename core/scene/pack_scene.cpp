@@ -223,8 +223,8 @@ Bounds bounds_of(const HostScene& scene) {
 }
 
 HostScene pack_scene(const SceneDescription& scene) {
-    require_memory(scene.source.empty() ? "the scene" : scene.source.string(), bytes_to_pack(scene),
-                   ErrorKind::Input);
+    require_memory(scene.source.empty() ? "the scene" : scene.source.string(), 0, ErrorKind::Input,
+                   bytes_to_pack(scene));
     HostScene packed;
     pack_geometry(scene, packed);
     pack_instances(scene, packed);

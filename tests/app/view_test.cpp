@@ -1,5 +1,7 @@
 // `pathlight view` from a shell, driven by a script on SDL's dummy driver: options, files and commands of the window.
 #include <algorithm>
+#include <csignal>
+#include <filesystem>
 
 #include "core/io/image.h"
 #include "tests/support/catch.hpp"
@@ -52,6 +54,21 @@ TEST_CASE("the command of a saved picture makes that picture") {
     CHECK((read_png8(folder / "cornell.png").rgb == read_png8(shown).rgb));
     REQUIRE(run_shell(command + " -o again.exr", {.folder = folder.path()}).code == 0);
     CHECK((read_exr(folder / "again.exr").pixels == read_exr(linear).pixels));
+}
+
+TEST_CASE("a signal closes the window in order, whatever a script waits for") {
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+        const TempDir folder;
+        write_all(folder / "script", "1 shot s.png\n2 wait shown_spp == 1000000000\n");
+        RunningProgram running(program({"view", "cornell", "--script", "script", "--software", "--size", "32x24",
+                                        "--ui-trace", "trace"}),
+                               {.folder = folder.path(), .unset = {"DISPLAY"}, .set = {"SDL_VIDEODRIVER=dummy"}});
+        REQUIRE(running.wait_until([&] { return std::filesystem::exists(folder / "s.png"); }));
+        running.send(signal);
+        const ProgramResult result = running.wait();
+        CHECK(result.code == 130);
+        CHECK_FALSE(result.err.empty());  // the percentiles that the end of the window tells
+    }
 }
 
 // The window writes 48 frames of 64 samples unless told otherwise; the first three are enough.

@@ -65,7 +65,7 @@ VideoSubsystem::VideoSubsystem() {
     // Checked before SDL opens a window that nobody can see.
     if (!chosen && !is_set("DISPLAY") && !is_set("WAYLAND_DISPLAY"))
         throw Error(ErrorKind::Unavailable, "no display: neither DISPLAY nor WAYLAND_DISPLAY is set");
-    SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");  // Ctrl+C in the terminal ends the program
+    SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");  // the program has its own
     if (SDL_InitSubSystem(SDL_INIT_VIDEO) != 0)
         throw Error(ErrorKind::Unavailable, fmt::format("no display: {}", SDL_GetError()));
     if (chosen || !shows_nothing(SDL_GetCurrentVideoDriver())) return;

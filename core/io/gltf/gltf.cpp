@@ -10,7 +10,6 @@
 #include "core/io/gltf/lights.h"
 #include "core/io/gltf/triangles.h"
 #include "core/scene/far_origin.h"
-#include "core/scene/pack_scene.h"
 
 namespace pl {
 namespace {
@@ -54,7 +53,8 @@ SceneDescription load_from(const glm::dvec3& origin, const std::filesystem::path
     tell_origin(scene);
     const GltfNodes nodes = read_nodes(file, origin);
     add_gltf_triangles(file, nodes, read_surfaces(file, scene), scene, groups, most_copied_triangles);
-    if (scene.triangles.empty()) fail_empty(file);
+    const bool is_read_again = origin == glm::dvec3(0.0) && far_origin(scene) != glm::dvec3(0.0);
+    if (scene.triangles.empty() && !is_read_again) fail_empty(file);
     add_gltf_cameras(file, nodes, scene);
     add_gltf_lights(file, nodes, scene);
     note_the_rest(file);
@@ -68,8 +68,7 @@ SceneDescription load_from(const glm::dvec3& origin, const std::filesystem::path
 SceneDescription load_gltf(const std::filesystem::path& path, MeshGroups* groups,
                            std::uint64_t most_copied_triangles) {
     SceneDescription scene = load_from(glm::dvec3(0.0), path, groups, most_copied_triangles);
-    const Bounds bounds = bounds_of(scene);
-    const glm::dvec3 origin = far_origin(glm::dvec3(bounds.low), glm::dvec3(bounds.high));
+    const glm::dvec3 origin = far_origin(scene);
     if (origin == glm::dvec3(0.0)) return scene;
     if (groups != nullptr) *groups = {};
     return load_from(origin, path, groups, most_copied_triangles);

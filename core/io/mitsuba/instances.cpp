@@ -47,8 +47,10 @@ void MitsubaInstances::add(const MitsubaObject& instance, const MitsubaGroup& gr
                                   kMostShownTriangles, shown_triangles_));
     }
     if (!scene.triangles.empty()) before_.emplace(shown_.size(), take_triangles(scene));
-    kept_.count(group.number, group.outline, instance.transform("to_world"));
-    shown_.push_back({instance, &group});
+    glm::dmat4 to_world = instance.transform("to_world");
+    to_world[3] -= glm::dvec4(scene.origin, 0.0);
+    kept_.count(group.number, group.outline, to_world);
+    shown_.push_back({instance, &group, to_world});
 }
 
 void MitsubaInstances::move_to(SceneDescription& scene) {
@@ -71,8 +73,7 @@ void MitsubaInstances::require_room() const {
     std::uint64_t triangles = 0;
     for (const Shown& shown : shown_) {
         const MitsubaGroup& group = *shown.group;
-        if (!kept_.is_instance(group.number, group.outline, shown.instance.transform("to_world")))
-            triangles += group.outline.triangles;
+        if (!kept_.is_instance(group.number, group.outline, shown.to_world)) triangles += group.outline.triangles;
         if (triangles > kMostStoredTriangles) fail_full(shown.instance);
     }
 }
@@ -86,11 +87,10 @@ void MitsubaInstances::place(const Shown& shown, SceneDescription& scene) {
             fail_full(shown.instance);
         append_triangles(copy_of_group(shown.instance, group.shapes, to_world), to);
     };
-    const glm::dmat4 to_world = shown.instance.transform("to_world");
-    if (kept_.is_instance(group.number, group.outline, to_world))
-        kept_.show(group.number, group.name, to_world, add);
+    if (kept_.is_instance(group.number, group.outline, shown.to_world))
+        kept_.show(group.number, group.name, shown.to_world, add);
     else
-        add(to_world, scene);
+        add(shown.to_world, scene);
 }
 
 }  // namespace pl

@@ -40,6 +40,7 @@ private:
     struct Shown {
         MitsubaObject instance;
         const MitsubaGroup* group;
+        glm::dmat4 to_world;  ///< from the origin of the scene
     };
 
     void require_room() const;

@@ -24,24 +24,24 @@ glm::vec3 strength_of(const MitsubaObject& emitter, const char* name) {
 /// Along +z of the place, or 'direction', which it turns.
 glm::vec3 direction_of(const MitsubaObject& emitter) {
     glm::dvec3 local(0.0, 0.0, 1.0);
-    if (const auto given = emitter.point("direction")) local = glm::dvec3(*given);
+    if (const auto given = emitter.point("direction")) local = *given;
     const glm::dvec3 direction = glm::dmat3(emitter.transform("to_world")) * local;
     const double length = glm::length(direction);
     if (!(length > 0.0) || !std::isfinite(length)) emitter.fail("expected a direction, got a vector of no length");
     return glm::vec3(direction / length);
 }
 
-PunctualLightDescription point_light(const MitsubaObject& emitter) {
+PunctualLightDescription point_light(const MitsubaObject& emitter, const glm::dvec3& origin) {
     PunctualLightDescription light{.kind = PunctualKind::Point, .intensity = strength_of(emitter, "intensity")};
     const auto given = emitter.point("position");
-    light.position = given ? *given : glm::vec3(emitter.transform("to_world")[3]);
+    light.position = glm::vec3((given ? *given : glm::dvec3(emitter.transform("to_world")[3])) - origin);
     return light;
 }
 
 /// Falls off between beam_width and cutoff_angle, linearly over the angle. [Mitsuba 3, spot]
-PunctualLightDescription spot_light(const MitsubaObject& emitter) {
+PunctualLightDescription spot_light(const MitsubaObject& emitter, const glm::dvec3& origin) {
     PunctualLightDescription light{.kind = PunctualKind::Spot,
-                                   .position = glm::vec3(emitter.transform("to_world")[3]),
+                                   .position = glm::vec3(glm::dvec3(emitter.transform("to_world")[3]) - origin),
                                    .direction = direction_of(emitter),
                                    .intensity = strength_of(emitter, "intensity"),
                                    .falloff = SpotFalloff::Angle};
@@ -93,9 +93,9 @@ bool add_mitsuba_light(const MitsubaObject& emitter, SceneDescription& scene) {
     const std::string type = emitter.type();
     PunctualLightDescription light{.kind = PunctualKind::Directional};
     if (type == "point") {
-        light = point_light(emitter);
+        light = point_light(emitter, scene.origin);
     } else if (type == "spot") {
-        light = spot_light(emitter);
+        light = spot_light(emitter, scene.origin);
     } else if (type == "directional") {
         light.direction = direction_of(emitter);
         light.intensity = strength_of(emitter, "irradiance");

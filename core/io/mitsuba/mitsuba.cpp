@@ -18,6 +18,7 @@
 #include "core/io/mitsuba/sky.h"
 #include "core/io/mitsuba/surfaces.h"
 #include "core/io/texture_file.h"
+#include "core/scene/far_origin.h"
 #include "core/scene/up_axis.h"
 
 namespace pl {
@@ -26,10 +27,12 @@ namespace {
 /// Builds the scene from the objects of the file.
 class MitsubaLoader {
 public:
-    MitsubaLoader(const std::filesystem::path& path, const LoadSettings& asked)
+    MitsubaLoader(const std::filesystem::path& path, const LoadSettings& asked, const glm::dvec3& origin)
         : file_(path, asked.parameters), instances_(asked.most_copied_triangles),
           round_shapes_(count_round_shapes(file_)) {
         scene_.source = path;
+        scene_.origin = origin;
+        tell_origin(scene_);
     }
 
     SceneDescription run() {
@@ -45,10 +48,6 @@ public:
                 read_integrator(object);
         }
         instances_.move_to(scene_);
-        if (scene_.triangles.empty()) {
-            throw Error(ErrorKind::Input,
-                        fmt::format("{}: expected a shape with an area, got none", scene_.source.string()));
-        }
         place_images();
         if (sensor_) note_clipped(sensor_, scene_);
         file_.note_unused();
@@ -229,7 +228,7 @@ private:
                                  : "sensors after the first one are left out");
             return;
         }
-        const MitsubaView view = mitsuba_view(sensor);
+        const MitsubaView view = mitsuba_view(sensor, scene_.origin);
         sensor_ = sensor;
         scene_.settings.emplace_back("size", fmt::format("{:.0f}x{:.0f}", view.width, view.height));
         scene_.cameras.push_back({.name = sensor.attribute("id"), .camera = view.camera});
@@ -253,7 +252,12 @@ private:
 }  // namespace
 
 SceneDescription load_mitsuba(const std::filesystem::path& path, const LoadSettings& asked) {
-    return MitsubaLoader(path, asked).run();
+    SceneDescription scene = MitsubaLoader(path, asked, glm::dvec3(0.0)).run();
+    if (const glm::dvec3 origin = far_origin(scene); origin != glm::dvec3(0.0))
+        scene = MitsubaLoader(path, asked, origin).run();
+    if (scene.triangles.empty())
+        throw Error(ErrorKind::Input, fmt::format("{}: expected a shape with an area, got none", path.string()));
+    return scene;
 }
 
 }  // namespace pl

@@ -167,7 +167,8 @@ private:
     }
 
     void read_element(const PlyElement& element) {
-        glm::vec3 position(0.0f), normal(0.0f), color(0.0f);
+        glm::dvec3 position(0.0);
+        glm::vec3 normal(0.0f), color(0.0f);
         glm::vec2 uv(0.0f);
         bool has_normal = false, has_uv = false, has_color = false;
         for (const PlyProperty& property : element.properties) {
@@ -175,10 +176,11 @@ private:
                 read_list(element, property);
                 continue;
             }
-            const auto value = static_cast<float>(number(*property.type));
+            const double full = number(*property.type);
+            const auto value = static_cast<float>(full);
             const std::string& name = property.name;
             if (name == "x" || name == "y" || name == "z") {
-                position[name[0] - 'x'] = value;
+                position[name[0] - 'x'] = full;
             } else if (name == "nx" || name == "ny" || name == "nz") {
                 normal[name[1] - 'x'] = value;
                 has_normal = true;

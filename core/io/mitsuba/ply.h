@@ -11,7 +11,7 @@
 namespace pl {
 
 struct PlyMesh {
-    std::vector<glm::vec3> positions;
+    std::vector<glm::dvec3> positions;
     std::vector<glm::vec3> normals;  ///< per vertex, or none
     std::vector<glm::vec2> uvs;      ///< per vertex, or none
     std::vector<glm::vec3> colors;   ///< per vertex, integers as shares of their largest; or none

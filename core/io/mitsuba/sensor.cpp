@@ -4,12 +4,16 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <span>
+#include <vector>
 
 #include <fmt/format.h>
-#include <glm/gtc/matrix_transform.hpp>
 
 #include "core/io/line_reader.h"
 #include "core/scene/crop.h"
+#include "core/scene/instance_boxes.h"
+#include "core/scene/instances.h"
+#include "core/scene/pack_scene.h"
 
 namespace pl {
 namespace {
@@ -68,8 +72,9 @@ double half_height_of(const ViewAngle& angle, double aspect) {
 }
 
 /// Looks along +z of its place, with +x to the left. [Mitsuba 3, perspective]
-CameraDescription camera_of(const MitsubaObject& sensor, float aspect) {
-    const glm::dmat4 to_world = sensor.transform("to_world");
+CameraDescription camera_of(const MitsubaObject& sensor, float aspect, const glm::dvec3& origin) {
+    glm::dmat4 to_world = sensor.transform("to_world");
+    to_world[3] -= glm::dvec4(origin, 0.0);
     const glm::dvec3 forward = glm::normalize(glm::dvec3(to_world[2]));
     const ViewAngle angle = angle_of(sensor, static_cast<double>(aspect));
     if (!(angle.degrees > 0.0 && angle.degrees < 180.0) || !std::isfinite(forward.x))
@@ -87,37 +92,81 @@ CameraDescription camera_of(const MitsubaObject& sensor, float aspect) {
     return camera;
 }
 
-/// The part of space that a picture shows, and a little around it: a pyramid that looks along -z.
-struct ViewPyramid {
-    glm::dmat4 to_view;
-    glm::dvec2 tangents;
-
-    explicit ViewPyramid(const MitsubaView& view) {
-        const CameraDescription& camera = view.camera;
-        to_view = glm::lookAt(glm::dvec3(camera.eye), glm::dvec3(camera.target), glm::dvec3(camera.up));
-        const double half = std::tan(0.5 * glm::radians(static_cast<double>(camera.fov_deg)));
-        const glm::dvec2 shift = glm::abs(glm::dvec2(camera.shift));
-        tangents = half * (glm::dvec2(static_cast<double>(view.width / view.height), 1.0) + 2.0 * shift);
+/// The part of space that a camera sees between two distances along its viewing direction: the positive sides of planes.
+class SeenSpace {
+public:
+    SeenSpace(const Camera& camera, double first, double last) {
+        const glm::dvec3 axis(camera.axis), center(camera.center), right(camera.right), up(camera.up);
+        const auto add = [&](const glm::dvec3& normal, double distance) {
+            planes_.emplace_back(normal, -glm::dot(normal, glm::dvec3(camera.eye)) - distance);
+        };
+        const auto add_side = [&](const glm::dvec3& edge, const glm::dvec3& along) {
+            const glm::dvec3 normal = glm::cross(edge, along);
+            add(glm::dot(normal, center) < 0.0 ? -normal : normal, 0.0);
+        };
+        add(axis, first);
+        add(-axis, -last);
+        add_side(center + right, up);
+        add_side(center - right, up);
+        add_side(center + up, right);
+        add_side(center - up, right);
     }
 
-    /// Whether the bounds of a triangle reach into it between two distances.
-    bool has_between(double first, double last, const std::array<glm::vec3, 3>& corners) const {
-        glm::dvec3 low(std::numeric_limits<double>::infinity());
-        glm::dvec3 high = -low;
-        for (const glm::vec3& corner : corners) {
-            const glm::dvec3 seen(to_view * glm::dvec4(glm::dvec3(corner), 1.0));
-            low = glm::min(low, seen);
-            high = glm::max(high, seen);
+    bool has_part_of(const SceneDescription& scene) const {
+        const auto corners = [&](std::uint32_t triangle, const glm::dmat4x3& to_world) {
+            std::array<glm::dvec3, 3> moved;
+            for (int k = 0; k < 3; ++k)
+                moved[static_cast<std::size_t>(k)] =
+                    to_world * glm::dvec4(glm::dvec3(scene.positions[scene.triangles[triangle].vertex[k]]), 1.0);
+            return moved;
+        };
+        for (std::uint32_t i = 0; i < direct_triangles(scene); ++i)
+            if (has_part_of(corners(i, glm::dmat4x3(1.0)))) return true;
+        const std::vector<Bounds> boxes = mesh_boxes(scene);
+        for (const InstanceDescription& instance : scene.instances) {
+            if (misses(box_corners(boxes[instance.mesh], instance.to_world))) continue;
+            const MeshDescription& mesh = scene.meshes[instance.mesh];
+            for (std::uint32_t i = 0; i < mesh.triangle_count; ++i)
+                if (has_part_of(corners(mesh.first_triangle + i, glm::dmat4x3(instance.to_world)))) return true;
         }
-        const glm::dvec2 reach = tangents * std::min(last, -low.z);
-        return -high.z < last && -low.z > first && glm::all(glm::lessThan(glm::dvec2(low), reach)) &&
-               glm::all(glm::greaterThan(glm::dvec2(high), -reach));
+        return false;
     }
+
+private:
+    static double side(const glm::dvec4& plane, const glm::dvec3& point) {
+        return glm::dot(plane, glm::dvec4(point, 1.0));
+    }
+
+    /// Whether all points are behind one plane: none of their convex hull is in the space then.
+    bool misses(std::span<const glm::dvec3> points) const {
+        return std::ranges::any_of(planes_, [&](const glm::dvec4& plane) {
+            return std::ranges::none_of(points, [&](const glm::dvec3& point) { return side(plane, point) > 0.0; });
+        });
+    }
+
+    /// Cuts the triangle by one plane after the other. [Sutherland and Hodgman 1974]
+    bool has_part_of(const std::array<glm::dvec3, 3>& corners) const {
+        if (misses(corners)) return false;
+        std::vector<glm::dvec3> polygon(corners.begin(), corners.end());
+        for (const glm::dvec4& plane : planes_) {
+            std::vector<glm::dvec3> rest;
+            for (std::size_t i = 0; i < polygon.size(); ++i) {
+                const glm::dvec3& to = polygon[(i + 1) % polygon.size()];
+                const double a = side(plane, polygon[i]), b = side(plane, to);
+                if (a > 0.0) rest.push_back(polygon[i]);
+                if ((a > 0.0) != (b > 0.0)) rest.push_back(glm::mix(polygon[i], to, a / (a - b)));
+            }
+            polygon = std::move(rest);
+        }
+        return !polygon.empty();
+    }
+
+    std::vector<glm::dvec4> planes_;
 };
 
 }  // namespace
 
-MitsubaView mitsuba_view(const MitsubaObject& sensor) {
+MitsubaView mitsuba_view(const MitsubaObject& sensor, const glm::dvec3& origin) {
     const MitsubaObject film = sensor.part("film");
     const float width = film.number("width").value_or(768.0f);
     const float height = film.number("height").value_or(576.0f);
@@ -129,22 +178,18 @@ MitsubaView mitsuba_view(const MitsubaObject& sensor) {
     CropWindow seen = crop;
     seen.x += offset("principal_point_offset_x") * width;
     seen.y += offset("principal_point_offset_y") * height;
-    return {cropped(camera_of(sensor, width / height), width, height, seen), crop.width, crop.height};
+    return {cropped(camera_of(sensor, width / height, origin), width, height, seen), crop.width, crop.height};
 }
 
 void note_clipped(const MitsubaObject& sensor, const SceneDescription& scene) {
     const double near = static_cast<double>(sensor.number("near_clip").value_or(1e-2f));
     const double far = static_cast<double>(sensor.number("far_clip").value_or(1e4f));
-    const ViewPyramid pyramid(mitsuba_view(sensor));
-    const auto any_between = [&](double first, double last) {
-        return std::ranges::any_of(scene.triangles, [&](const TriangleDescription& t) {
-            return pyramid.has_between(
-                first, last, {scene.positions[t.vertex.x], scene.positions[t.vertex.y], scene.positions[t.vertex.z]});
-        });
-    };
-    if (any_between(0.0, near)) sensor.note(fmt::format("what is nearer than near_clip, {}, is shown", near));
-    if (any_between(far, std::numeric_limits<double>::infinity()))
-        sensor.note(fmt::format("what is farther than far_clip, {}, is shown", far));
+    const MitsubaView view = mitsuba_view(sensor, scene.origin);
+    const Camera camera = make_camera(view.camera, static_cast<int>(view.width), static_cast<int>(view.height));
+    if (SeenSpace(camera, 0.0, near).has_part_of(scene))
+        sensor.note(fmt::format("what is nearer than near_clip, {:g}, is shown", near));
+    if (SeenSpace(camera, far, std::numeric_limits<double>::infinity()).has_part_of(scene))
+        sensor.note(fmt::format("what is farther than far_clip, {:g}, is shown", far));
 }
 
 }  // namespace pl

@@ -11,11 +11,12 @@ struct MitsubaView {
     float width, height;  ///< of the picture, in pixels
 };
 
-/// The view of a `sensor` element of the type perspective or thinlens, through the crop of its film. Throws Error(Input) for a picture
-/// without pixels or of too many, a crop that leaves it, no direction, and angles out of (0, 180) degrees.
-MitsubaView mitsuba_view(const MitsubaObject& sensor);
+/// The view of a `sensor` element of the type perspective or thinlens, through the crop of its film, in a scene that is moved to an
+/// origin. Throws Error(Input) for a picture without pixels or of too many, a crop that leaves it, no direction, and angles out of
+/// (0, 180) degrees.
+MitsubaView mitsuba_view(const MitsubaObject& sensor, const glm::dvec3& origin);
 
-/// Notes the planes of clipping where something of the scene may be behind them: nothing is clipped.
+/// Notes the planes of clipping behind which the sensor would see something of the scene: nothing is clipped.
 void note_clipped(const MitsubaObject& sensor, const SceneDescription& scene);
 
 }  // namespace pl

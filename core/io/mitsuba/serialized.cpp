@@ -7,6 +7,7 @@
 #include <limits>
 #include <string>
 #include <string_view>
+#include <type_traits>
 
 #include <fmt/format.h>
 #include <stb_image.h>
@@ -44,11 +45,12 @@ public:
         at_ += bytes;
         return value;
     }
-    float real(bool is_double) {
+    /// In the range of floats.
+    double real(bool is_double) {
         const std::uint64_t bits = whole(is_double ? 8 : 4);
-        const auto value = is_double ? static_cast<float>(std::bit_cast<double>(bits))
-                                     : std::bit_cast<float>(static_cast<std::uint32_t>(bits));
-        if (!std::isfinite(value)) fail("expected a finite number");
+        const double value = is_double ? std::bit_cast<double>(bits)
+                                       : static_cast<double>(std::bit_cast<float>(static_cast<std::uint32_t>(bits)));
+        if (!std::isfinite(static_cast<float>(value))) fail("expected a finite number");
         return value;
     }
     std::string_view rest() const { return bytes_.substr(at_); }
@@ -141,7 +143,8 @@ SerializedMesh read_mesh(Bytes file, std::uint64_t version) {
     const auto vectors = [&](auto& to) {
         to.resize(static_cast<std::size_t>(vertices));
         for (auto& v : to)
-            for (int k = 0; k < v.length(); ++k) v[k] = file.real(is_double);
+            for (int k = 0; k < v.length(); ++k)
+                v[k] = static_cast<std::remove_reference_t<decltype(v[k])>>(file.real(is_double));
     };
     vectors(result.mesh.positions);
     if (head.has(kHasNormals)) vectors(result.mesh.normals);

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -18,6 +19,7 @@
 #include "core/io/obj_smooth.h"
 #include "core/io/obj_triangles.h"
 #include "core/io/triangle_area.h"
+#include "core/scene/far_origin.h"
 
 namespace pl {
 namespace {
@@ -62,7 +64,16 @@ ObjMesh mesh_of(PlyMesh read) {
         };
         add_face(mesh, {corner(triangle[0]), corner(triangle[1]), corner(triangle[2])});
     }
-    mesh.positions = std::move(read.positions);
+    glm::dvec3 low(std::numeric_limits<double>::max());
+    glm::dvec3 high(-low);
+    for (const std::array<std::uint32_t, 3>& triangle : read.triangles) {
+        for (const std::uint32_t i : triangle) {
+            low = glm::min(low, read.positions[i]);
+            high = glm::max(high, read.positions[i]);
+        }
+    }
+    if (!read.triangles.empty()) mesh.origin = far_origin(low, high);
+    for (const glm::dvec3& position : read.positions) mesh.positions.emplace_back(position - mesh.origin);
     mesh.normals = std::move(read.normals);
     mesh.uvs = std::move(read.uvs);
     return mesh;
@@ -155,6 +166,7 @@ void add_mitsuba_shape(const MitsubaObject& shape, const ShapeMaterial& material
                        SceneDescription& scene) {
     const std::string type = shape.type();
     glm::dmat4 to_world = shape.transform("to_world");
+    to_world[3] -= glm::dvec4(scene.origin, 0.0);
     ObjMesh mesh;
     SceneDescription added;
     std::vector<glm::vec3> vertex_colors;
@@ -185,7 +197,7 @@ void add_mitsuba_shape(const MitsubaObject& shape, const ShapeMaterial& material
     } else if (type == "sphere") {
         mesh = sphere_mesh(round_shapes.sides(material.emits));
         shape.note("spheres are fine meshes of their area");
-        to_world = glm::scale(glm::translate(to_world, glm::dvec3(shape.point("center").value_or(glm::vec3(0.0f)))),
+        to_world = glm::scale(glm::translate(to_world, shape.point("center").value_or(glm::dvec3(0.0))),
                               glm::dvec3(static_cast<double>(shape.number("radius").value_or(1.0f))));
     } else {
         shape.leave_out(fmt::format("shapes of the type {} are left out", in_quotes(type)));

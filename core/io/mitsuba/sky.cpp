@@ -54,7 +54,7 @@ void place_sun(const MitsubaObject& emitter, SkyDescription& sky) {
     const bool is_old = emitter.is_of_version_0();
     sky.up = unit_of(emitter, to_world[is_old ? 1 : 2]);
     if (const auto given = emitter.point("sun_direction")) {
-        sky.sun_direction = unit_of(emitter, glm::dvec3(*given));
+        sky.sun_direction = unit_of(emitter, *given);
         return;
     }
     const glm::dvec3 sun = sun_towards(time_of(emitter));

@@ -50,7 +50,7 @@ public:
     std::optional<bool> boolean(const std::string& name) const;
     std::optional<std::string> text(const std::string& name) const;
     std::optional<glm::vec3> color(const std::string& name) const;
-    std::optional<glm::vec3> point(const std::string& name) const;
+    std::optional<glm::dvec3> point(const std::string& name) const;
     /// A path inside of the folder of the scene, or of one that its `path` elements name.
     std::filesystem::path file(const std::string& name) const;
     glm::dmat4 transform(const std::string& name) const;

@@ -175,12 +175,12 @@ std::optional<std::string> MitsubaObject::text(const std::string& name) const {
     return object ? std::optional(object.attribute("value")) : std::nullopt;
 }
 
-std::optional<glm::vec3> MitsubaObject::point(const std::string& name) const {
+std::optional<glm::dvec3> MitsubaObject::point(const std::string& name) const {
     const MitsubaObject object = property(name);
     if (!object) return std::nullopt;
     if (const std::vector<double> values = object.numbers(object.attribute("value")); values.size() == 3)
-        return glm::vec3(values[0], values[1], values[2]);
-    return glm::vec3(object.number_or("x", 0.0), object.number_or("y", 0.0), object.number_or("z", 0.0));
+        return glm::dvec3(values[0], values[1], values[2]);
+    return glm::dvec3(object.number_or("x", 0.0), object.number_or("y", 0.0), object.number_or("z", 0.0));
 }
 
 fs::path MitsubaObject::file(const std::string& name) const { return file_named(name, text(name).value_or("")); }
@@ -228,9 +228,10 @@ glm::dmat4 MitsubaObject::step() const {
         return glm::rotate(glm::dmat4(1.0), glm::radians(number_or("angle", 0.0)),
                            values.size() == 3 ? vector("value", 0.0) : xyz);
     }
-    if (kind == "matrix" && values.size() == 16) {
-        glm::dmat4 matrix;
-        for (int i = 0; i < 16; ++i) matrix[i % 4][i / 4] = values[static_cast<std::size_t>(i)];
+    if (kind == "matrix" && (values.size() == 16 || values.size() == 9)) {
+        const int side = values.size() == 16 ? 4 : 3;
+        glm::dmat4 matrix(1.0);
+        for (int i = 0; i < side * side; ++i) matrix[i % side][i / side] = values[static_cast<std::size_t>(i)];
         return matrix;
     }
     if (kind == "lookat" || kind == "look_at") {

@@ -89,6 +89,27 @@ TEST_CASE("Work that does not fit is refused with both numbers of bytes") {
     }
 }
 
+TEST_CASE("Processes that share the work of a machine need their memory together") {
+    const std::uint64_t part = memory_left() / 2;
+    CHECK_NOTHROW(require_memory("a scene", 0, ErrorKind::Input, part));
+    set_processes_here(4);
+    const auto words = [](std::uint64_t once, std::uint64_t each) {
+        try {
+            require_memory("a scene", once, ErrorKind::Input, each);
+        } catch (const MemoryError& error) {
+            return std::string(error.what());
+        }
+        return std::string();
+    };
+    const std::string together = words(0, part);
+    const std::string once = words(part, 0);
+    const std::string huge = words(1, std::numeric_limits<std::uint64_t>::max() / 2);
+    set_processes_here(1);
+    CHECK(together.ends_with(" in the 4 processes of this machine"));
+    CHECK(once.empty());
+    CHECK(huge.find("18446744073709551615 bytes") != std::string::npos);
+}
+
 TEST_CASE("The limit of the address space counts") {
     rlimit before{};
     REQUIRE(getrlimit(RLIMIT_AS, &before) == 0);

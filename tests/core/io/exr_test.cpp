@@ -280,17 +280,49 @@ TEST_CASE("EXR files of luminance and chroma are read") {
     }
 }
 
-TEST_CASE("Colors of other primaries are named") {
+// AP1 of ACES, and its matrix to linear sRGB by Bradford's adaptation.   [ACES, TB-2014-004; colour-science]
+TEST_CASE("Colors of other primaries become those of sRGB, and white stays white") {
     const TemporaryFolder folder;
-    Imf::Header header = header_of({"R", "G", "B"});
-    Imf::addChromaticities(header, Imf::Chromaticities());
-    write_lines(folder.path() / "a.exr", header);
-    CHECK(read(folder.path() / "a.exr").warnings.empty());
-    Imf::addChromaticities(header, Imf::Chromaticities({1, 0}, {0, 1}, {0, 0}, {1.0f / 3.0f, 1.0f / 3.0f}));
-    write_lines(folder.path() / "a.exr", header);
-    const Read got = read(folder.path() / "a.exr");
+    const auto read_with = [&](const Imf::Chromaticities& space) {
+        Imf::Header header = header_of({"R", "G", "B"});
+        Imf::addChromaticities(header, space);
+        write_lines(folder.path() / "a.exr", header);
+        return read(folder.path() / "a.exr");
+    };
+    const Read same = read_with({});
+    CHECK(same.warnings.empty());
+    const Read got = read_with({{0.713f, 0.293f}, {0.165f, 0.830f}, {0.128f, 0.044f}, {0.32168f, 0.33767f}});
     REQUIRE(got.warnings.size() == 1);
-    CHECK_THAT(got.warnings[0], contains("primaries"));
+    CHECK_THAT(got.warnings[0], contains("its primaries are not those of sRGB: converted"));
+    const glm::mat3 columns{
+        {1.70505f, -0.13026f, -0.02400f}, {-0.62179f, 1.14080f, -0.12897f}, {-0.08326f, -0.01055f, 1.15297f}};
+    for (std::size_t i = 0; i < got.image.pixels.size(); i += 97)
+        CHECK(glm::length(got.image.pixels[i] - columns * same.image.pixels[i]) < 1e-4f);
+    const Read none = read_with({{0, 0}, {0, 0}, {0, 0}, {0, 0}});
+    CHECK(none.warnings.empty());
+    CHECK(none.image.pixels == same.image.pixels);
+    const Read wrong = read_with({{0.6f, 0.3f}, {0.6f, 0.3f}, {0.1f, 0.1f}, {0.3f, 0.3f}});
+    CHECK_THAT(wrong.warnings.at(0), contains("primaries are those of no colors"));
+    CHECK(wrong.image.pixels == same.image.pixels);
+}
+
+TEST_CASE("Alpha of EXR files is read beside their colors") {
+    const TemporaryFolder folder;
+    const auto path = folder.path() / "a.exr";
+    const auto alpha_of = [&](const Names& names) {
+        write_lines(path, header_of(names));
+        std::vector<float> alpha;
+        decode_exr(read_file(path), {.path = path, .alpha = &alpha});
+        return alpha;
+    };
+    CHECK(alpha_of({"R", "G", "B"}).empty());
+    for (const Names& names :
+         {Names{"R", "G", "B", "A"}, Names{"a.R", "a.G", "a.B", "a.A", "b.B"}, Names{"Y", "A"}}) {
+        const std::vector<float> alpha = alpha_of(names);  // the first channel in the order of names
+        REQUIRE(alpha.size() == kWidth * kHeight);
+        CHECK(alpha[0] == value_of(0, 0, 0));
+        CHECK(alpha.back() == value_of(kWidth - 1, kHeight - 1, 0));
+    }
 }
 
 TEST_CASE("EXR files without a picture are refused with what they have") {

@@ -127,3 +127,20 @@ TEST_CASE("Coded lines of HDR files are whole, or the file is refused") {
     for (const std::string& last : {nothing, too_long, std::string("\x88", 1), std::string(), singles.substr(0, 5)})
         CHECK_THAT(input_error([&] { decode(coded(run + run + run + last)); }), contains("damaged"));
 }
+
+TEST_CASE("HDR files of other primaries are converted") {
+    const auto decoded = [](const std::string& line) {
+        return decode("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n" + line + "\n-Y 1 +X 1\n\x80\x40\x20\x81");
+    };
+    const glm::vec3 stored = decoded("").image.pixels[0];
+    for (const char* usual : {"PRIMARIES=0.640 0.330 0.290 0.600 0.150 0.060 0.333 0.333\n",
+                              "PRIMARIES=.64 .33 .3 .6 .15 .06 .3127 .329\n", "PRIMARIES=0 0 0 0 0 0 0 0\n"}) {
+        const Decoded got = decoded(usual);
+        CHECK(got.image.pixels[0] == stored);
+        CHECK(got.warnings.empty());
+    }
+    const Decoded wide = decoded("PRIMARIES=0.713 0.293 0.165 0.830 0.128 0.044 0.32168 0.33767\n");
+    CHECK(wide.image.pixels[0].x > stored.x);
+    CHECK_THAT(wide.warnings.at(0), contains("its primaries are not those of sRGB: converted"));
+    CHECK_THAT(decoded("PRIMARIES=wide\n").warnings.at(0), contains("expected eight numbers for its primaries"));
+}

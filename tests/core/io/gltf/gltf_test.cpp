@@ -66,6 +66,17 @@ TEST_CASE("gltf: meshes that nodes place far from the origin are moved near it i
     CHECK(is_told(scene, "far from the origin"));
 }
 
+TEST_CASE("gltf: meshes so small and far that floats leave them no area are moved, too") {
+    GltfMaker file;
+    file.triangle();
+    file.root["nodes"][0]["translation"] = {1e8, 0.0, 0.0};
+    file.root["nodes"][0]["scale"] = {0.5, 0.5, 0.5};
+    const SceneDescription scene = load_gltf(file);
+    REQUIRE(scene.triangles.size() == 1);
+    CHECK(glm::length(scene.origin + glm::dvec3(corners(scene, 0)[1]) - glm::dvec3(1e8, 0.0, 0.0) -
+                      0.5 * glm::dvec3(kTriangle[1])) < 1e-6);
+}
+
 TEST_CASE("gltf: buffers in files of the folder, with escapes in their names") {
     GltfMaker file;
     file.triangle();

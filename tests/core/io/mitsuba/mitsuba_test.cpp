@@ -85,6 +85,47 @@ TEST_CASE("mitsuba: a camera far from the origin looks along its axis") {
 }
 
 // 160 x 90 pixels of 640 x 360 from (320, 45) on, whose middle lies 80 pixels to the right and 90 above that of the film.
+TEST_CASE("mitsuba: scenes far from the origin are moved near it in doubles, with camera and lights") {
+    const glm::dvec3 far(391234.37, 5820123.81, -3.5);
+    const std::string move =
+        "<transform name=\"to_world\"><scale value=\"0.01\"/><translate value=\"391234.37 5820123.81 "
+        "-3.5\"/></transform>";
+    const std::string at = "x=\"391234.37\" y=\"5820123.81\" z=\"-3.5\"/>";
+    TemporaryFolder folder;
+    folder.write("m.ply",
+                 "ply\nformat ascii 1.0\nelement vertex 3\nproperty double x\nproperty double y\nproperty double z\n"
+                 "element face 1\nproperty list uchar int vertex_indices\nend_header\n391234.37 5820123.81 -3.5\n"
+                 "391234.38 5820123.81 -3.5\n391234.37 5820123.82 -3.5\n3 0 1 2\n");
+    const SceneDescription scene = load_mitsuba_text(
+        folder, "<shape type=\"rectangle\">" + move +
+                    "</shape><shape type=\"ply\"><string name=\"filename\" value=\"m.ply\"/></shape>"
+                    "<shape type=\"shapegroup\" id=\"g\"><shape type=\"rectangle\"/></shape>"
+                    "<shape type=\"instance\"><ref id=\"g\"/>" +
+                    move +
+                    "</shape><shape type=\"sphere\"><float name=\"radius\" value=\"0.01\"/><point name=\"center\" " +
+                    at + "</shape><emitter type=\"point\"><point name=\"position\" " + at +
+                    "</emitter><emitter type=\"spot\">" + move +
+                    "</emitter><sensor type=\"perspective\"><transform name=\"to_world\"><lookat origin=\"391234.37, "
+                    "5820123.81, 1\" target=\"391234.37, 5820123.81, 0\" up=\"0, 1, 0\"/></transform></sensor>");
+    const auto is_at = [&](const glm::vec3& point, const glm::dvec3& from) {
+        return glm::length(scene.origin + glm::dvec3(point) - far - from) < 1e-5;
+    };
+    CHECK(is_told(scene, "far from the origin"));
+    REQUIRE(scene.triangles.size() > 5);
+    const auto corner = [&](std::size_t triangle, int k) {
+        return scene.positions[scene.triangles[triangle].vertex[k]];
+    };
+    CHECK(is_at(corner(0, 0), {-0.01, -0.01, 0.0}));
+    CHECK(is_at(corner(2, 1), {0.01, 0.0, 0.0}));
+    CHECK(is_at(corner(3, 0), {-0.01, -0.01, 0.0}));
+    glm::dvec3 top(-1.0);
+    for (std::size_t i = 5; i < scene.triangles.size(); ++i) top = glm::max(top, glm::dvec3(corner(i, 0)));
+    CHECK(is_at(top, glm::dvec3(0.01)));
+    CHECK(is_at(scene.punctual_lights.at(0).position, glm::dvec3(0.0)));
+    CHECK(is_at(scene.punctual_lights.at(1).position, glm::dvec3(0.0)));
+    CHECK(is_at(scene.camera.eye, {0.0, 0.0, 4.5}));
+}
+
 TEST_CASE("mitsuba: crops of the film, and a principal point off its middle") {
     const auto sensor = [](const std::string& values, const std::string& crop) {
         return kSquare +

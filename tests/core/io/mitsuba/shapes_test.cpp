@@ -172,6 +172,7 @@ TEST_CASE("mitsuba: transformations in their order, of both spellings, mirrored 
     CHECK(normal_and_area(square("<scale x=\"-1\" y=\"1\" z=\"1\"/>")).z == Approx(4.0));
     CHECK(normal_and_area(square("<matrix value=\"1 0 0 7 0 1 0 0 0 0 1 0 0 0 0 1\"/>")).z == Approx(4.0));
     CHECK(square("<matrix value=\"1 0 0 7 0 1 0 0 0 0 1 0 0 0 0 1\"/>").positions[0].x == 6.0f);
+    CHECK(square("<matrix value=\"2 0 0 0 3 0 0 0 1\"/>").positions[0] == glm::vec3(-2, -3, 0));
     CHECK(normal_and_area(
               load_mitsuba_text("<shape type=\"rectangle\"><boolean name=\"flip_normals\" value=\"true\"/></shape>"))
               .z == Approx(-4.0));
