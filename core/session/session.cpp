@@ -123,7 +123,7 @@ void Session::import_field(LearnedField learned) {
 }
 
 ServedKernel Session::served_kernel(FilmSlot slot) const {
-    return pl::served_kernel(backend().name, *packed_scene(), settings_for(slot));
+    return pl::served_kernel(backend().name, needed_features(slot), settings_for(slot));
 }
 
 Clocks Session::clocks(FilmSlot slot) const {
