@@ -2,8 +2,8 @@
 // fails leaves the session unchanged.
 #include <functional>
 
-#include "tests/session/failing_backend.h"
-#include "tests/session/interruption.h"
+#include "tests/core/session/failing_backend.h"
+#include "tests/core/session/interruption.h"
 #include "tests/support/catch.hpp"
 #include "tests/support/files/input_error.h"
 #include "tests/support/scenes/shapes.h"

@@ -1,7 +1,7 @@
 // The films of a session on fields of its own: which pieces of work follow each other, and what clearing and parking leaves.
 #include "core/session/film_renderer.h"
 
-#include "tests/session/stopping_backend.h"
+#include "tests/core/session/stopping_backend.h"
 #include "tests/support/catch.hpp"
 #include "tests/support/scenes/shipped_scenes.h"
 #include "tests/support/session/small_settings.h"
