@@ -202,7 +202,7 @@ int run_info(const CommandLine& line, Console& console) {
     const HostScene packed = pack_scene(*loaded.scene);
     const FeatureSet needed = needed_features(packed, options.render);
     const ServedKernel kernel =
-        served_kernel(make_own_backend(options.backend, options.threads)->info().name, packed, options.render);
+        served_kernel(make_own_backend(options.backend, options.threads)->info().name, needed, options.render);
     const SceneReport report{.scene = *loaded.scene,
                              .packed = packed,
                              .bounds = bounds_of(*loaded.scene),

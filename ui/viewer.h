@@ -14,7 +14,7 @@
 #include "core/io/image.h"
 #include "core/measure/live_runs.h"
 #include "core/scene/description.h"
-#include "core/session/backend_factory.h"
+#include "core/session/backend.h"
 #include "core/session/learned_field.h"
 #include "core/session/settings.h"
 #include "core/session/snapshot.h"

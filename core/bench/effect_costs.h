@@ -6,7 +6,7 @@
 
 #include "core/bench/bench_plan.h"
 #include "core/measure/statistics.h"
-#include "core/session/backend_factory.h"
+#include "core/session/backend.h"
 
 namespace pl::bench {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/selftest/self_check.h"
-#include "core/session/backend_factory.h"
+#include "core/session/backend.h"
 
 namespace pl {
 

@@ -41,6 +41,9 @@ struct BackendInfo {
     int free_threads() const;
 };
 
+/// "Xeon, 15 threads", and of a job ", 4 ranks"; without the threads where the back end has none.
+std::string device_text(const BackendInfo& info);
+
 /// Stop flag: a running pass starts no further paths. Paths under way are finished: dropping them would drop long
 /// ones more often, a bias. Paths start in ascending order, so the finished ones are a prefix of PassCounters::paths
 /// paths, and the pass can be resumed behind it without changing a bit of the result.
@@ -152,7 +155,13 @@ public:
     virtual void update_field(MethodId method) = 0;
 };
 
+/// Makes a back end by name: "cpu", "cuda". Throws Error(Unavailable) with the reason. May be called from any thread.
+using BackendFactory = std::function<std::unique_ptr<RenderBackend>(const std::string& name)>;
+
 /// Pixels of a film of this size. Throws Error(Usage) if there are none, or more than kernels can number.
 std::size_t film_pixels(int width, int height);
+/// Throws MemoryError if a film of this size does not fit the memory that is left, together with the pictures that are made of it:
+/// copies for files, for the window, for its noise. `held`: pixels of films that it replaces, or that are not in this memory.
+void require_film_memory(int width, int height, std::size_t held);
 
 }  // namespace pl

@@ -3,14 +3,40 @@
 namespace pl {
 namespace {
 
+/// New values, and the parts that are cleared. Edits of the scene and commands have no values.
 struct Table {
-    Invalidation operator()(const EditCamera&) const { return {.films = true}; }
-    Invalidation operator()(const EditSize&) const { return {.films = true}; }
-    Invalidation operator()(const EditSeed&) const { return {.films = true, .tables = true}; }
-    Invalidation operator()(const EditEstimator&) const { return {.films = true, .tables = true}; }
-    Invalidation operator()(const EditMixture&) const { return {.films = true}; }
-    Invalidation operator()(const EditField&) const { return {.films = true, .tables = true, .volumes = true}; }
-    Invalidation operator()(const EditScene&) const {
+    RenderSettings& settings;
+
+    Invalidation operator()(const EditCamera& edit) const {
+        settings.camera = edit.camera;
+        return {.films = true};
+    }
+    Invalidation operator()(const EditSize& edit) const {
+        settings.width = edit.width;
+        settings.height = edit.height;
+        return {.films = true};
+    }
+    Invalidation operator()(const EditSeed& edit) const {
+        settings.seed = edit.seed;
+        return {.films = true, .tables = true};
+    }
+    Invalidation operator()(const EditEstimator& edit) const {
+        settings.max_depth = edit.max_depth;
+        settings.next_event = edit.next_event;
+        settings.roulette = edit.roulette;
+        settings.guiding = edit.guiding;
+        return {.films = true, .tables = true};
+    }
+    Invalidation operator()(const EditMixture& edit) const {
+        settings.mixture = edit.mixture;
+        return {.films = true};
+    }
+    Invalidation operator()(const EditField& edit) const {
+        settings.field = edit.field;
+        return {.films = true, .tables = true, .volumes = true};
+    }
+    Invalidation operator()(const EditScene& edit) const {
+        settings.camera = edit.scene->camera;
         return {.films = true, .tables = true, .volumes = true, .scene = true};
     }
     // Volumes: cleared only if same_placement() is false, which depends on the scene and not on the edit.
@@ -26,6 +52,8 @@ struct Table {
 
 }  // namespace
 
-Invalidation invalidated_by(const SessionEdit& edit) { return std::visit(Table{}, edit); }
+Invalidation take_over(const SessionEdit& edit, RenderSettings& settings) {
+    return std::visit(Table{settings}, edit);
+}
 
 }  // namespace pl

@@ -85,6 +85,7 @@ struct Invalidation {
     friend bool operator==(const Invalidation&, const Invalidation&) = default;
 };
 
-Invalidation invalidated_by(const SessionEdit& edit);
+/// Copies the new values of an edit, if it has any, into the settings. Returns the parts that it clears.
+Invalidation take_over(const SessionEdit& edit, RenderSettings& settings);
 
 }  // namespace pl

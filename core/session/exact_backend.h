@@ -5,6 +5,7 @@
 #include <functional>
 #include <span>
 
+#include "core/base/error.h"
 #include "core/fields/pending_sums.h"
 #include "core/session/backend.h"
 
@@ -25,6 +26,11 @@ public:
 };
 
 /// Throws Error(Unavailable) if the state of the back end cannot be taken out.
-ExactBackend& exact(RenderBackend& backend);
+inline ExactBackend& exact(RenderBackend& backend) {
+    if (auto* const found = dynamic_cast<ExactBackend*>(&backend)) return *found;
+    throw Error(ErrorKind::Unavailable,
+                "back end '" + backend.info().name +
+                    "': its films cannot be taken out, which a checkpoint needs: expected cpu or cuda");
+}
 
 }  // namespace pl

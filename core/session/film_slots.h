@@ -9,10 +9,6 @@
 
 namespace pl {
 
-/// Throws MemoryError if a film of this size does not fit the memory that is left, together with the pictures that are made of it:
-/// copies for files, for the window, for its noise. `held`: pixels of films that it replaces, or that are not in this memory.
-void require_film_memory(int width, int height, std::size_t held);
-
 /// `Pixels` holds FilmPixel and offers size() and view_of().
 template <class Pixels>
 class FilmSlots {

@@ -35,11 +35,20 @@ void Placement::adopt(RenderBackend& backend, const HostScene& scene, HostVolume
     refinement_ = refinement;
 }
 
+RefinedPlacement Placement::split(const RenderBackend& backend, const HostScene& scene, const FieldSettings& settings,
+                                  const Camera& camera, HostField& learned, std::size_t most) {
+    const int threads = backend.info().free_threads();
+    const std::vector<std::uint32_t> split = volumes_to_split(field_view(shape_, *volumes_, learned), most, threads);
+    return refine_placement({scene, surfaces(scene, threads), settings, &camera, threads},
+                            placement_view(*volumes_, shape_.extent), split);
+}
+
 void Placement::refine(const RenderBackend& backend, const HostScene& scene, RefinedPlacement refined) {
     volumes_ = with_grid(backend, scene, std::move(refined.volumes));
     refinement_.added += static_cast<std::uint32_t>(refined.parents.size());
 }
 
+/// Found when first asked for.
 const LitSurfaces& Placement::surfaces(const HostScene& scene, int threads) {
     if (!surfaces_) surfaces_ = std::make_shared<const LitSurfaces>(find_lit_surfaces(scene, threads));
     return *surfaces_;

@@ -27,8 +27,9 @@ public:
     /// Takes volumes placed in another session, and uploads them.
     void adopt(RenderBackend& backend, const HostScene& scene, HostVolumes volumes, const FieldShape& shape,
                const Refinement& refinement);
-    /// The surfaces of the scene, found when first asked for.
-    const LitSurfaces& surfaces(const HostScene& scene, int threads);
+    /// The placement with those volumes split, at most `most`, whose values in a `learned` field differ most from their neighbors'.
+    RefinedPlacement split(const RenderBackend& backend, const HostScene& scene, const FieldSettings& settings,
+                           const Camera& camera, HostField& learned, std::size_t most);
     /// Takes refined volumes, without uploading them.
     void refine(const RenderBackend& backend, const HostScene& scene, RefinedPlacement refined);
     /// Sets the clock: of volumes that this session placed before it was taken out and put back.
@@ -47,6 +48,8 @@ public:
     void undo_refinement();
 
 private:
+    const LitSurfaces& surfaces(const HostScene& scene, int threads);
+
     std::shared_ptr<const HostVolumes> volumes_;
     std::shared_ptr<const LitSurfaces> surfaces_;  ///< null: not found yet
     FieldShape shape_;

@@ -31,10 +31,6 @@ FeatureSet needed_features(const HostScene& scene, const RenderSettings& setting
     return (is_picture && needed.has(Feature::DeltaLights) ? sampled : needed).without(Feature::ManyLights);
 }
 
-ServedKernel served_kernel(std::string_view backend, const HostScene& scene, const RenderSettings& settings) {
-    return served_kernel(backend, needed_features(scene, settings), settings);
-}
-
 ServedKernel served_kernel(std::string_view backend, FeatureSet needed, const RenderSettings& settings) {
     ServedKernel kernel{.served = needed.with(settings.forced_effects)};
     kernel.compiled = kCompiledSets[covering_set(kernel.served, range_of(settings))];

@@ -18,8 +18,6 @@ struct ServedKernel {
     FeatureSet compiled{};  ///< effects of the kernel: the smallest compiled set of its range that covers them
     std::string name{};     ///< "cpu/reinforcement/next-event-estimation", for display
 };
-ServedKernel served_kernel(std::string_view backend, const HostScene& scene, const RenderSettings& settings);
-/// The same for given needed effects.
 ServedKernel served_kernel(std::string_view backend, FeatureSet needed, const RenderSettings& settings);
 
 }  // namespace pl

@@ -37,6 +37,9 @@ struct FilmProgress {
     std::uint64_t trial_paths = 0;
     std::vector<PassRun> runs{};     ///< of all passes, the one under way included
     std::uint64_t updates_seen = 0;  ///< FieldProgress::updates at the beginning of the last run
+
+    /// Whether a pass has rendered some of its pixels.
+    bool is_under_way() const { return next_pixel > 0; }
 };
 
 /// A back end that is not in use, with its films and the scene uploaded to it.

@@ -2,8 +2,8 @@
 #include <array>
 
 #include "core/io/checkpoint_file.h"
+#include "tests/core/session/interruption.h"
 #include "tests/mpi/thread_ranks.h"
-#include "tests/session/interruption.h"
 #include "tests/support/catch.hpp"
 #include "tests/support/files/temporary_folder.h"
 #include "tests/support/scenes/shapes.h"

@@ -3,8 +3,8 @@
 
 #include "core/base/error.h"
 #include "core/io/checkpoint_file.h"
+#include "tests/core/session/interruption.h"
 #include "tests/mpi/thread_ranks.h"
-#include "tests/session/interruption.h"
 #include "tests/support/catch.hpp"
 #include "tests/support/files/input_error.h"
 #include "tests/support/files/temporary_folder.h"

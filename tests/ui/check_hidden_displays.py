@@ -18,7 +18,7 @@ from callgrind import count_instructions, require_valgrind, sum_by  # noqa: E402
 # Functions without which a display cannot be: light, key frames, flowers, paths, discs and shapes.
 DISPLAYS = ["pl::LightGatherer::trace", "pl::FieldKeyFrame::FieldKeyFrame", "pl::make_flowers", "pl::flower_mesh",
             "pl::trace_pixel", "pl::lines_of", "pl::draw_shapes", "pl::draw_disc", "pl::answer_paths"]
-RENDERER = "pl::Session::advance"
+RENDERER = "pl::FilmRenderer::advance"
 
 HIDDEN = """
 0 tap 3

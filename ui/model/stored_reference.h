@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <memory>
 
-#include "core/session/backend_factory.h"
+#include "core/session/backend.h"
 #include "ui/viewer.h"
 
 namespace pl::ui {

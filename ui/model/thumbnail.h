@@ -6,7 +6,7 @@
 
 #include "core/io/image.h"
 #include "core/scene/description.h"
-#include "core/session/backend_factory.h"
+#include "core/session/backend.h"
 
 namespace pl::ui {
 

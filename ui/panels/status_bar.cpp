@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "core/session/backend_text.h"
+#include "core/session/backend.h"
 #include "ui/draw/method_keys.h"
 #include "ui/draw/value_text.h"
 #include "ui/draw/widgets.h"

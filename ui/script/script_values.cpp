@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "core/session/backend_text.h"
+#include "core/session/backend.h"
 #include "ui/draw/imgui_compat.h"
 #include "ui/model/viewer_model.h"
 #include "ui/model/window_memory.h"

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
-#include "core/session/backend_text.h"
+#include "core/session/backend.h"
 
 namespace pl::ui {
 namespace {

@@ -11,7 +11,7 @@ namespace {
 const FeatureSet kLarge = kCompiledSets[kCompiledSetCount - 1];
 
 ServedKernel served(const RenderSettings& settings, const HostScene& scene = {}) {
-    return served_kernel("cpu", scene, settings);
+    return served_kernel("cpu", needed_features(scene, settings), settings);
 }
 
 }  // namespace

@@ -1,5 +1,4 @@
-// The scene of a session: its description, its packed arrays with the hierarchy, and whether closed surfaces surround
-// the camera.
+// What a session renders, and by which back end: the inputs of its fields and films, which only the session's edits change.
 #pragma once
 
 #include <memory>
@@ -8,9 +7,12 @@
 #include "core/scene/description.h"
 #include "core/scene/enclosure.h"
 #include "core/scene/scene_storage.h"
+#include "core/session/backend.h"
+#include "core/session/settings.h"
 
 namespace pl {
 
+/// A scene as it is described, and packed for kernels with its hierarchy.
 class SessionScene {
 public:
     /// Packs a valid scene and builds its hierarchy.
@@ -24,24 +26,29 @@ public:
     const std::shared_ptr<const HostScene>& packed() const { return packed_; }
     double build_seconds() const { return build_seconds_; }
 
-    /// Records that paths of a camera at `eye` have escaped: tests once whether closed surfaces surround it. Sorting
-    /// the edges of a million triangles takes half a second: skipped for large scenes unless `may_take_long`.
-    void note_escape(glm::vec3 eye, bool may_take_long);
-    /// Whether closed surfaces surround the camera, so that escaped paths were lost. False before any has escaped.
-    bool is_closed() const { return is_closed_.value_or(false); }
-    bool knows_whether_closed() const { return is_closed_.has_value(); }
-    void remember_whether_closed(bool is_closed) { is_closed_ = is_closed; }
-    /// Drops the result of the test, because the camera may have moved.
-    void forget_whether_closed() { is_closed_.reset(); }
+    /// Whether closed surfaces surround a camera at `eye`. Sorting the edges of a million triangles takes half a second, once: empty
+    /// for large scenes whose edges are not sorted yet, unless it `may_take_long`.
+    std::optional<bool> encloses(glm::vec3 eye, bool may_take_long) const;
 
 private:
     SessionScene() = default;
 
     std::shared_ptr<const SceneDescription> description_;
     std::shared_ptr<const HostScene> packed_;
-    std::optional<Enclosure> enclosure_;  ///< once a path has escaped
-    std::optional<bool> is_closed_;
+    mutable std::optional<Enclosure> enclosure_;  ///< once it was asked for
     double build_seconds_ = 0.0;
+};
+
+struct RenderInputs {
+    std::shared_ptr<RenderBackend> backend;
+    RenderSettings settings;
+    SessionScene scene;
+
+    std::uint32_t pixel_count() const { return static_cast<std::uint32_t>(settings.width * settings.height); }
+    Camera camera() const;
+    /// The settings of one film.
+    RenderSettings settings_for(FilmSlot slot) const;
+    FeatureSet needed_features(FilmSlot slot) const;
 };
 
 }  // namespace pl

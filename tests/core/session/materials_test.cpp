@@ -6,7 +6,7 @@
 
 #include "core/scene/pack_scene.h"
 #include "core/scene/scene_hash.h"
-#include "tests/session/failing_backend.h"
+#include "tests/core/session/failing_backend.h"
 #include "tests/support/catch.hpp"
 #include "tests/support/files/input_error.h"
 #include "tests/support/scenes/shipped_scenes.h"

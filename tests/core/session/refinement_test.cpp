@@ -2,9 +2,9 @@
 // training sample and no pass is lost.
 #include <numeric>
 
-#include "tests/session/failing_backend.h"
-#include "tests/session/interruption.h"
-#include "tests/session/through_file.h"
+#include "tests/core/session/failing_backend.h"
+#include "tests/core/session/interruption.h"
+#include "tests/core/session/through_file.h"
 #include "tests/support/catch.hpp"
 #include "tests/support/files/input_error.h"
 #include "tests/support/scenes/shapes.h"

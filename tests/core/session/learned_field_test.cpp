@@ -4,8 +4,8 @@
 #include <numeric>
 
 #include "core/session/shown_range.h"
-#include "tests/session/interruption.h"
-#include "tests/session/through_file.h"
+#include "tests/core/session/interruption.h"
+#include "tests/core/session/through_file.h"
 #include "tests/support/catch.hpp"
 #include "tests/support/files/input_error.h"
 #include "tests/support/scenes/shapes.h"

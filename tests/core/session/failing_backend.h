@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/base/error.h"
-#include "tests/session/forwarding_backend.h"
+#include "tests/core/session/forwarding_backend.h"
 
 namespace pl::test {
 

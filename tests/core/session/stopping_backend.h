@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "tests/session/forwarding_backend.h"
+#include "tests/core/session/forwarding_backend.h"
 
 namespace pl::test {
 

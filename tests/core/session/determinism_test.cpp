@@ -4,7 +4,7 @@
 #include "core/scene/needed_effects.h"
 #include "core/scene/pack_scene.h"
 #include "cpu/rays/wide_intersector.h"
-#include "tests/session/interruption.h"
+#include "tests/core/session/interruption.h"
 #include "tests/support/catch.hpp"
 #include "tests/support/rays/brute_force.h"
 #include "tests/support/scenes/image_scenes.h"

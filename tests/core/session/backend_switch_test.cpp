@@ -2,8 +2,8 @@
 // fails leaves the session unchanged.
 #include <functional>
 
-#include "tests/session/failing_backend.h"
-#include "tests/session/interruption.h"
+#include "tests/core/session/failing_backend.h"
+#include "tests/core/session/interruption.h"
 #include "tests/support/catch.hpp"
 #include "tests/support/files/input_error.h"
 #include "tests/support/scenes/shapes.h"
@@ -240,7 +240,8 @@ TEST_CASE("A lost back end is abandoned with its tables, and the next one starts
         if (info_of(estimator.method).uses_field)
             CHECK_THAT(unavailable([&] { session.apply(EditBackend{next}); }), contains("gone"));
         const SessionEdit abandon = EditBackend{.backend = next, .abandon_old = true};
-        CHECK(invalidated_by(abandon) == Invalidation{.tables = true});
+        RenderSettings ignored;
+        CHECK(take_over(abandon, ignored) == Invalidation{.tables = true});
         session.apply(abandon);
         CHECK(session.passes(slot_of(session)) == 0);
         CHECK_FALSE(next->has_field(estimator.method));

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "tests/session/stopping_backend.h"
+#include "tests/core/session/stopping_backend.h"
 #include "tests/support/catch.hpp"
 #include "tests/support/scenes/shipped_scenes.h"
 #include "tests/support/session/same_bits.h"

@@ -1,6 +1,6 @@
 // A session that is taken out, put into a file and continued elsewhere: to the bits of an uninterrupted one.
 #include "core/io/checkpoint_file.h"
-#include "tests/session/interruption.h"
+#include "tests/core/session/interruption.h"
 #include "tests/support/catch.hpp"
 #include "tests/support/files/input_error.h"
 #include "tests/support/files/temporary_folder.h"

@@ -1,9 +1,10 @@
-#include "core/session/session_scene.h"
+#include "core/session/render_inputs.h"
 
 #include "core/base/error.h"
 #include "core/base/timer.h"
 #include "core/scene/pack_scene.h"
 #include "core/scene/validate.h"
+#include "core/session/served_kernel.h"
 
 namespace pl {
 
@@ -28,12 +29,24 @@ SessionScene SessionScene::with_material(std::uint32_t index, const MaterialDesc
     return changed;
 }
 
-void SessionScene::note_escape(glm::vec3 eye, bool may_take_long) {
-    if (is_closed_) return;
+std::optional<bool> SessionScene::encloses(glm::vec3 eye, bool may_take_long) const {
     constexpr std::size_t kManyTriangles = 100'000;
-    if (!enclosure_ && description_->triangles.size() > kManyTriangles && !may_take_long) return;
+    if (!enclosure_ && description_->triangles.size() > kManyTriangles && !may_take_long) return std::nullopt;
     if (!enclosure_) enclosure_.emplace(*description_);
-    is_closed_ = enclosure_->contains(eye);
+    return enclosure_->contains(eye);
+}
+
+Camera RenderInputs::camera() const { return make_camera(settings.camera, settings.width, settings.height); }
+
+RenderSettings RenderInputs::settings_for(FilmSlot slot) const {
+    RenderSettings result = settings;
+    result.method = slot.method;
+    result.view = slot.view;
+    return result;
+}
+
+FeatureSet RenderInputs::needed_features(FilmSlot slot) const {
+    return pl::needed_features(*scene.packed(), settings_for(slot));
 }
 
 }  // namespace pl

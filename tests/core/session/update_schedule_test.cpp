@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "core/io/field_file.h"
-#include "tests/session/interruption.h"
+#include "tests/core/session/interruption.h"
 #include "tests/support/catch.hpp"
 #include "tests/support/files/temporary_folder.h"
 #include "tests/support/scenes/shapes.h"

@@ -2,7 +2,7 @@
 // in the film, and rare trials go on learning.
 #include "core/scene/pack_scene.h"
 #include "core/session/path_settings.h"
-#include "tests/session/interruption.h"
+#include "tests/core/session/interruption.h"
 #include "tests/support/catch.hpp"
 #include "tests/support/scenes/shipped_scenes.h"
 #include "tests/support/session/same_bits.h"

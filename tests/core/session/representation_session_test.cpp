@@ -1,7 +1,7 @@
 // Sessions that learn by a representation other than the table: files, checkpoints, inspection, memory, and the fixed point of a furnace.
 #include "core/diagnose/record_path.h"
 #include "core/io/checkpoint_file.h"
-#include "tests/session/through_file.h"
+#include "tests/core/session/through_file.h"
 #include "tests/support/catch.hpp"
 #include "tests/support/scenes/closed_scenes.h"
 #include "tests/support/scenes/shipped_scenes.h"
