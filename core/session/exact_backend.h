@@ -5,7 +5,6 @@
 #include <functional>
 #include <span>
 
-#include "core/fields/pending_sums.h"
 #include "core/session/backend.h"
 
 namespace pl {

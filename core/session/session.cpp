@@ -38,11 +38,11 @@ ServedKernel Session::served_kernel(FilmSlot slot) const {
     return pl::served_kernel(backend_->info().name, *scene_.packed(), settings_for(slot));
 }
 
-/// The size of tables follows from their shape; the back end is asked for other fields only, since it may have to wait for a device.
+/// The back end is asked only if nothing follows from the shape, since it may have to wait for a device.
 FieldReport Session::field_report(MethodId method) const {
-    if (representation_of(settings_.field, method) == Representation::Table)
-        return {.bytes = placement_.count() * table_bytes(placement_.bins(), placement_.shape().light_clusters)};
-    return backend_->field_report(method);
+    const auto report =
+        report_by_shape(placement_.shape(), placement_.count(), representation_of(settings_.field, method));
+    return report ? *report : backend_->field_report(method);
 }
 
 std::optional<FieldStatus> Session::field_status(MethodId method) const {

@@ -1,6 +1,5 @@
 // The part of Session that exports and imports learned fields.
 #include "core/base/error.h"
-#include "core/fields/reset_tables.h"
 #include "core/scene/scene_hash.h"
 #include "core/session/path_settings.h"
 #include "core/session/session.h"

@@ -1,6 +1,5 @@
 // The part of Session by which learning is frozen, stepped, and forgotten for single volumes.
 #include "core/base/error.h"
-#include "core/fields/reset_tables.h"
 #include "core/session/session.h"
 #include "core/session/update_schedule.h"
 

@@ -11,7 +11,7 @@ namespace pl::ui {
 std::vector<float> entropy_shares(const FieldKeyFrame& frame) {
     std::vector<float> shares;
     for (std::size_t volume = 0; volume < frame.volumes(); ++volume) {
-        const FieldKeyFrame::Cells cells = frame.probabilities(static_cast<std::int32_t>(volume));
+        const CellProbabilities cells = frame.probabilities(static_cast<std::int32_t>(volume));
         float entropy = 0.0f;
         for (const float p : cells.shares)
             if (p > 0.0f) entropy -= p * std::log(p);

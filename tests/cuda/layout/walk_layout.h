@@ -192,8 +192,7 @@ PL_HD inline void walk_parameters(Sink& sink, void (*)(Parameters...)) {
 template <class Sink, int kEntry = 0>
 PL_HD inline void walk_kernels(Sink& sink) {
     if constexpr (kEntry < MethodList::kCount) {
-        if constexpr (!TypeAt<kEntry, MethodList>::kIsForHostAlone)
-            walk_parameters(sink, cuda::PictureKernel<cuda::KernelMethodAt<kEntry>>{});
+        walk_parameters(sink, cuda::PictureKernel<cuda::KernelMethodAt<kEntry>>{});
         walk_kernels<Sink, kEntry + 1>(sink);
     } else {
         walk_parameters(sink, cuda::ProbeKernel{});

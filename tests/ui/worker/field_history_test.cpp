@@ -62,7 +62,7 @@ TEST_CASE("Field history: a frame has the field of its pass") {
     CHECK(history.frames[1]->inspect(0).density == then.density);
     CHECK(history.frames.back()->inspect(0).radiance == now.radiance);
     CHECK(history.frames.back()->inspect(0).bsdf_fraction == now.bsdf_fraction);
-    const FieldKeyFrame::Cells cells = history.frames.back()->probabilities(0);
+    const CellProbabilities cells = history.frames.back()->probabilities(0);
     CHECK(cells.side == now.side);
     CHECK(cells.shares == now.probability);
     CHECK(history.bytes == history.frames.size() * history.frames[0]->bytes());
