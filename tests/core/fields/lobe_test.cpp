@@ -284,7 +284,7 @@ TEST_CASE("Extreme training samples leave sound mixtures") {
             lobes.update();
             CHECK(fits(lobes.shape, lobes.lobes, 1));
             const std::optional<FieldDamage> damage = damage_of(lobes.lobes);
-            INFO(damage ? damage->got : "");
+            INFO((damage ? damage->got : std::string()));
             CHECK_FALSE(damage.has_value());
         }
         const float pdf_sa = lobes.at().mixture.pdf_sa({0.0f, 0.0f, 1.0f});
