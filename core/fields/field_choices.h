@@ -29,12 +29,6 @@ inline constexpr auto kChoices<LearnedLight> = std::to_array<ChoiceInfo<LearnedL
 });
 
 template <>
-inline constexpr auto kChoices<Representation> = [] {
-    std::array<ChoiceInfo<Representation>, kRepresentations.size()> choices{};
-    for (std::size_t i = 0; i < choices.size(); ++i)
-        choices[i] = {kRepresentations[i].value, kRepresentations[i].name, kRepresentations[i].label,
-                      kRepresentations[i].sentence};
-    return choices;
-}();
+inline constexpr auto kChoices<Representation> = kRepresentations;
 
 }  // namespace pl

@@ -29,11 +29,6 @@ constexpr auto infos_of(TypeList<Models...>) {
 }
 inline constexpr auto kRepresentations = infos_of(FieldModels{});
 
-/// Of a representation of the list.
-constexpr const RepresentationInfo& info_of(Representation representation) {
-    return *std::ranges::find(kRepresentations, representation, &RepresentationInfo::value);
-}
-
 /// Calls visit.operator()<Model>() with the model of a representation, which is one of the list.
 template <class Visit>
 constexpr void with_model(Representation representation, Visit&& visit) {
@@ -42,6 +37,13 @@ constexpr void with_model(Representation representation, Visit&& visit) {
         visit.template operator()<Model>();
         return true;
     });
+}
+
+/// Time that guiding takes at a vertex, over that by a table.
+constexpr double guidance_of(Representation representation) {
+    double guidance = 1.0;
+    with_model(representation, [&]<class Model>() { guidance = Model::kGuidance; });
+    return guidance;
 }
 
 /// Whether tables of radiance volumes keep what is learned: then they are refined, and sampled or the teacher of what is.

@@ -35,12 +35,12 @@ std::vector<float> cell_shares(int side, std::span<const float> fine_density) {
     return shares;
 }
 
-CellProbabilities cell_probabilities(const AnyFieldView& field, std::int32_t volume) {
-    return with_inspector<CellProbabilities>(field, [&](const auto& view, const FieldInspector auto& inspector) {
-        CellProbabilities cells{.side = view.cells.side, .shares = {}};
+std::vector<float> cell_probabilities(const AnyFieldView& field, std::int32_t volume) {
+    return with_inspector<std::vector<float>>(field, [&](const auto& view, const FieldInspector auto& inspector) {
+        std::vector<float> shares;
         for (int cell = 0; cell < view.cells.count(); ++cell)
-            cells.shares.push_back(inspector.probability(static_cast<std::uint32_t>(volume), cell));
-        return cells;
+            shares.push_back(inspector.probability(static_cast<std::uint32_t>(volume), cell));
+        return shares;
     });
 }
 

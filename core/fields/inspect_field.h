@@ -40,14 +40,9 @@ struct VolumeInspection {
     float bsdf_fraction = 0.0f;  ///< of the mixture that guided paths use
 };
 
-/// Probabilities of sampling the cells of a volume's hemisphere: the part of VolumeInspection that many volumes need. [cell]
-struct CellProbabilities {
-    int side = 0;
-    std::vector<float> shares;
-};
-
 /// `volume` exists in the field.
-CellProbabilities cell_probabilities(const AnyFieldView& field, std::int32_t volume);
 VolumeInspection inspect_volume(const AnyFieldView& field, std::int32_t volume);
+/// Its probabilities alone, for many volumes. [cell]
+std::vector<float> cell_probabilities(const AnyFieldView& field, std::int32_t volume);
 
 }  // namespace pl

@@ -80,12 +80,12 @@ struct LobeModel {
     template <template <class> class Array>
     using Storage = LobeStorage<Array>;
 
-    static constexpr RepresentationInfo kInfo{
+    static constexpr ChoiceInfo<Representation> kInfo{
         .value = Representation::Lobes,
         .name = "lobes",
         .label = "Lobes",
-        .sentence = "a mixture of von Mises-Fisher lobes in each radiance volume, on the CPU alone",
-        .guidance = 9.0};
+        .sentence = "a mixture of von Mises-Fisher lobes in each radiance volume, on the CPU alone"};
+    static constexpr double kGuidance = 9.0;
     static constexpr const auto& kArrays = lobe_arrays::kAll;
 
     template <template <class> class Array, template <class> class LobeArray>

@@ -95,11 +95,12 @@ struct NeuralModel {
     template <template <class> class Array>
     using Storage = NeuralStorage<Array>;
 
-    static constexpr RepresentationInfo kInfo{.value = Representation::Neural,
-                                              .name = "neural",
-                                              .label = "Neural",
-                                              .sentence = "a network that gives each vertex a mixture of lobes",
-                                              .guidance = 13.0};
+    static constexpr ChoiceInfo<Representation> kInfo{.value = Representation::Neural,
+                                                      .name = "neural",
+                                                      .label = "Neural",
+                                                      .sentence =
+                                                          "a network that gives each vertex a mixture of lobes"};
+    static constexpr double kGuidance = 13.0;
     static constexpr const auto& kArrays = network_arrays::kWithTables;
     static constexpr std::size_t kBytesBesideVolumes = kNetworkBytes;
 

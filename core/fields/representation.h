@@ -4,23 +4,14 @@
 
 #include <optional>
 #include <string>
-#include <string_view>
 
+#include "core/base/choice.h"
 #include "core/fields/field_arrays.h"
 #include "core/fields/placement_storage.h"
 #include "core/kernel/guiding/table_field.h"
 #include "core/kernel/inspect/heat_map.h"
 
 namespace pl {
-
-/// What users read of a representation, and what its choice depends on.
-struct RepresentationInfo {
-    Representation value;       ///< in files
-    std::string_view name;      ///< on the command line and in files
-    std::string_view label;     ///< on screen
-    std::string_view sentence;  ///< as that of a ChoiceInfo
-    double guidance = 1.0;  ///< time that guiding takes at a vertex, over that by a table: docs/representations.md
-};
 
 /// Arrays whose values do not go together: "`what`: expected `expected`, got `got`".
 struct FieldDamage {
@@ -52,7 +43,8 @@ concept FieldInspector = requires(const Inspector& inspector, std::uint32_t volu
 };
 
 /// A representation. Its members are static:
-///   kInfo                            RepresentationInfo
+///   kInfo                            ChoiceInfo: its number in files, and what users read of it
+///   kGuidance                        time that guiding takes at a vertex, over that by a table: docs/representations.md
 ///   kArrays                          SpecList of all arrays, in the order of files
 ///   Field                            kernel model, a GuidingField
 ///   Storage<Array>                   its arrays in memory of one kind
@@ -74,7 +66,8 @@ concept FieldModel = GuidingField<typename Model::Field> &&
     FieldStorage<typename Model::template Storage<LargeArray>> &&
     requires(const FieldShape& shape, const HostVolumes& volumes,
              typename Model::template Storage<LargeArray>& arrays, const typename Model::Field& field) {
-    { Model::kInfo } -> std::same_as<const RepresentationInfo&>;
+    { Model::kInfo } -> std::same_as<const ChoiceInfo<Representation>&>;
+    { Model::kGuidance } -> std::convertible_to<double>;
     { Model::view(shape, volumes, arrays) } -> std::same_as<typename Model::Field>;
     { Model::summary(shape, volumes, arrays) } -> VolumeSummary;
     { Model::inspector(field) } -> FieldInspector;

@@ -81,12 +81,12 @@ struct SdTreeModel {
     template <template <class> class Array>
     using Storage = SdTreeStorage<Array>;
 
-    static constexpr RepresentationInfo kInfo{
+    static constexpr ChoiceInfo<Representation> kInfo{
         .value = Representation::SdTree,
         .name = "sd-tree",
         .label = "SD-tree",
-        .sentence = "quadtrees over directions at the leaves of a tree over space, on the CPU alone",
-        .guidance = 3.0};
+        .sentence = "quadtrees over directions at the leaves of a tree over space, on the CPU alone"};
+    static constexpr double kGuidance = 3.0;
     static constexpr const auto& kArrays = sd_tree_arrays::kAll;
 
     template <template <class> class Array, template <class> class TreeArray>

@@ -74,9 +74,11 @@ private:
 template <template <class> class Array>
 TableUpdateView update_view(const FieldShape& shape, TableStorage<Array>& tables) {
     TableUpdateView view;
-    static_cast<LightUpdate&>(view) = {shape.light_clusters, shape.radiance_unit, shape.rate};
     view.cells = shape.cells;
+    view.light_clusters = shape.light_clusters;
+    view.radiance_unit = shape.radiance_unit;
     view.extent = shape.extent;
+    view.rate = shape.rate;
     view.uniform_floor = shape.uniform_floor;
     set_arrays(table_arrays::kAll, view, tables);
     return view;
@@ -87,10 +89,11 @@ struct TableModel {
     template <template <class> class Array>
     using Storage = TableStorage<Array>;
 
-    static constexpr RepresentationInfo kInfo{.value = Representation::Table,
-                                              .name = "table",
-                                              .label = "Table",
-                                              .sentence = "cells of directions in each radiance volume"};
+    static constexpr ChoiceInfo<Representation> kInfo{.value = Representation::Table,
+                                                      .name = "table",
+                                                      .label = "Table",
+                                                      .sentence = "cells of directions in each radiance volume"};
+    static constexpr double kGuidance = 1.0;
     static constexpr const auto& kArrays = table_arrays::kAll;
 
     template <template <class> class Array, template <class> class TableArray>

@@ -11,15 +11,18 @@
 namespace pl {
 
 /// The arrays that a representation keeps beside its directions, to be written.
-struct VolumeUpdateView : MixtureSums<Span, Span>,
-                          VolumeIrradiance<Span, Span>,
-                          LightSampleSums<Span, Span>,
-                          LightUpdate {};
+struct VolumeUpdateView : MixtureSums<Span, Span>, VolumeIrradiance<Span, Span>, LightSampleSums<Span, Span> {
+    std::uint32_t light_clusters = 0;  ///< of the scene's light tree; 0: no tree
+    float radiance_unit = 1.0f;
+    LearningRate rate = LearningRate::Forgetful;
+};
 
 template <class Storage>
 VolumeUpdateView volume_update_view(const FieldShape& shape, Storage& field) {
     VolumeUpdateView view;
-    static_cast<LightUpdate&>(view) = {shape.light_clusters, shape.radiance_unit, shape.rate};
+    view.light_clusters = shape.light_clusters;
+    view.radiance_unit = shape.radiance_unit;
+    view.rate = shape.rate;
     set_arrays(mixture_arrays(kOfVolume) + kIrradianceArrays + kLightArrays, view, field);
     return view;
 }

@@ -93,7 +93,7 @@ PathCosts PathCosts::of(std::size_t triangles, FeatureSet features, Representati
         costs.segment += 60.0;
         costs.guidance += 25.0;
     }
-    costs.guidance *= info_of(representation).guidance * (learns ? 1.0 : kGuidanceWithoutLearning);
+    costs.guidance *= guidance_of(representation) * (learns ? 1.0 : kGuidanceWithoutLearning);
     return costs;
 }
 

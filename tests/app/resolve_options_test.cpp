@@ -216,7 +216,7 @@ TEST_CASE("SD-trees and lobes take the CPU and refuse CUDA, fields with tables d
     CHECK_FALSE(is_for_devices(Representation::SdTree));
     CHECK_FALSE(is_for_devices(Representation::Lobes));
     CHECK(is_for_devices(Representation::Neural));
-    for (const RepresentationInfo& info : kRepresentations) {
+    for (const ChoiceInfo<Representation>& info : kRepresentations) {
         const std::string name(info.name);
         const Representation representation = info.value;
         const std::vector<std::string> given{"--method", "reinforcement", "--field", name};

@@ -64,10 +64,12 @@ struct CosineLobeModel {
     template <template <class> class Array>
     using Storage = CosineLobeStorage<Array>;
 
-    static constexpr RepresentationInfo kInfo{.value = Representation{100},
-                                              .name = "cosine-lobe",
-                                              .label = "Cosine lobe",
-                                              .sentence = "a cosine lobe in each radiance volume, on the CPU alone"};
+    static constexpr ChoiceInfo<Representation> kInfo{.value = Representation{100},
+                                                      .name = "cosine-lobe",
+                                                      .label = "Cosine lobe",
+                                                      .sentence =
+                                                          "a cosine lobe in each radiance volume, on the CPU alone"};
+    static constexpr double kGuidance = 1.0;
     static constexpr const auto& kArrays = cosine_lobe_arrays::kAll;
 
     template <template <class> class Array, template <class> class LobeArray>

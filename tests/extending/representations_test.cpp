@@ -45,7 +45,7 @@ TEST_CASE("Every representation is chosen by its name, on the command line and i
     const auto spec = std::ranges::find(specs, "field", &OptionSpec::name);
     REQUIRE(spec != specs.end());
     std::set<Representation> values;
-    for (const RepresentationInfo& info : kRepresentations) {
+    for (const ChoiceInfo<Representation>& info : kRepresentations) {
         CAPTURE(std::string(info.name));
         CHECK(values.insert(info.value).second);
         CHECK(choice_named<Representation>(info.name) == info.value);
@@ -60,10 +60,10 @@ TEST_CASE("Every representation is chosen by its name, on the command line and i
 }
 
 TEST_CASE("Every representation has kernels on the host, for Expected Sarsa at least, and a cost") {
-    for (const RepresentationInfo& info : kRepresentations) {
+    for (const ChoiceInfo<Representation>& info : kRepresentations) {
         CAPTURE(std::string(info.name));
         CHECK(has_target(info.value, LearningTarget::ExpectedSarsa));
-        CHECK(info.guidance >= 1.0);
+        CHECK(guidance_of(info.value) >= 1.0);
         const HostField field = make_field({.cells = {4}}, 3, info.value);
         CHECK(representation_of(field) == info.value);
         CHECK(fits({.cells = {4}}, field, 3));
@@ -76,7 +76,7 @@ TEST_CASE("Every representation has kernels on the host, for Expected Sarsa at l
 TEST_CASE(
     "A field of every representation goes from the command line through session, inspection, files and checkpoints") {
     const SceneDescription scene = shipped_scene("cornell");
-    for (const RepresentationInfo& info : kRepresentations) {
+    for (const ChoiceInfo<Representation>& info : kRepresentations) {
         CAPTURE(std::string(info.name));
         Session session = make_session(scene, settings_by_command(scene, info.name), 2);
         render_passes(session, 3);

@@ -15,7 +15,7 @@ namespace {
 
 std::vector<Representation> all_representations() {
     std::vector<Representation> all;
-    for (const RepresentationInfo& info : kRepresentations) all.push_back(info.value);
+    for (const ChoiceInfo<Representation>& info : kRepresentations) all.push_back(info.value);
     return all;
 }
 

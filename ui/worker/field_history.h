@@ -29,7 +29,7 @@ public:
 
     /// `volume` < volumes().
     VolumeInspection inspect(std::int32_t volume) const;
-    CellProbabilities probabilities(std::int32_t volume) const { return cell_probabilities(view_, volume); }
+    std::vector<float> probabilities(std::int32_t volume) const { return cell_probabilities(view_, volume); }
 
 private:
     LearnedField learned_;

@@ -1,6 +1,6 @@
 // The irradiance by light samples of a volume: the part of the light that light samples bring, which a field trained for
 // scattered directions leaves to them. By it, lights are chosen where there are many. Of any
-// representation: `View` has LightSampleSums, to be written, and LightUpdate.
+// representation: `View` has LightSampleSums, to be written, `light_clusters`, `radiance_unit` and `rate`.
 #pragma once
 
 #include "core/kernel/guiding/table_update.h"

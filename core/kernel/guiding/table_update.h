@@ -6,17 +6,13 @@
 
 namespace pl {
 
-/// What the update of the light samples of any representation depends on.
-struct LightUpdate {
+/// All arrays of a table, to be written.
+struct TableUpdateView : TableArrays<Span, Span> {
+    DirectionCells cells;
     std::uint32_t light_clusters = 0;  ///< of the scene's light tree; 0: no tree
     float radiance_unit = 1.0f;
-    LearningRate rate = LearningRate::Forgetful;
-};
-
-/// All arrays of a table, to be written.
-struct TableUpdateView : TableArrays<Span, Span>, LightUpdate {
-    DirectionCells cells;
     float extent = 0.0f;
+    LearningRate rate = LearningRate::Forgetful;
     float uniform_floor = kUniformShare;
 };
 

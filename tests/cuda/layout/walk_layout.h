@@ -132,8 +132,8 @@ PL_HD constexpr auto members(cuda::ThreadNeuralField& v) {
     return std::tie(base_of<NetworkField>(v));
 }
 PL_HD constexpr auto members(TableUpdateView& v) {
-    const auto all =
-        std::tie(base_of<TableArrays<Span, Span>>(v), base_of<LightUpdate>(v), v.cells, v.extent, v.uniform_floor);
+    const auto all = std::tie(base_of<TableArrays<Span, Span>>(v), v.cells, v.light_clusters, v.radiance_unit,
+                              v.extent, v.rate, v.uniform_floor);
     static_assert(std::tuple_size_v<decltype(all)> == member_count<TableUpdateView>());
     return all;
 }

@@ -96,7 +96,7 @@ TEST_CASE("Render controls: every representation is chosen") {
     FileBench bench;
     ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
     REQUIRE(bench.run_until(model, [&] { return has_frame(model); }));
-    for (const RepresentationInfo& info : kRepresentations) {
+    for (const ChoiceInfo<Representation>& info : kRepresentations) {
         FieldSettings field = model.render().settings().field;
         field.representation = info.value;
         model.render().set_field(field);
