@@ -63,7 +63,7 @@ struct LobesInRoom {
     Room room;
     HostCosineLobes lobes = make_arrays<HostCosineLobes>(room.shape, room.volumes->normals.size());
 
-    Guided<CosineLobeField, ExpectedSarsa> method(LearnedLight light) {
+    Guided<CosineLobeField, ExpectedSarsa> method(LearnedLight light = LearningSettings{}.light) {
         Guided<CosineLobeField, ExpectedSarsa> method;
         method.field = field_view(room.shape, *room.volumes, lobes);
         method.mixture.learned = 0;
@@ -83,7 +83,7 @@ TEST_CASE("Extending: a representation in two headers learns, and agrees with de
     }
     CHECK(same_picture(picture, reference(trained.room), kResolution));
     // Lobes of the walls have turned from their normals towards the lamp, and all volumes expect light.
-    const CosineLobeField field = trained.method(LearnedLight::All).field;
+    const CosineLobeField field = trained.method().field;
     int turned = 0;
     int lit = 0;
     for (std::uint32_t i = 0; i < field.normals.count; ++i) {
@@ -97,7 +97,7 @@ TEST_CASE("Extending: a representation in two headers learns, and agrees with de
 TEST_CASE("Extending: a representation keeps the light of light samples apart") {
     LobesInRoom trained;
     Picture picture(kSide, kSide);
-    add_batch(picture, trained.room, trained.method({}), 1, 16, 0);
+    add_batch(picture, trained.room, trained.method(), 1, 16, 0);
     trained.update();
     const auto lit = std::ranges::count_if(trained.lobes.direct, [](float direct) { return direct > 0.0f; });
     CHECK(2 * static_cast<std::size_t>(lit) > trained.lobes.direct.size());
@@ -108,7 +108,7 @@ TEST_CASE(
     "Extending: lengths, bytes, divided and forgotten volumes, files and kernels follow from the list of arrays") {
     LobesInRoom trained;
     Picture picture(kSide, kSide);
-    add_batch(picture, trained.room, trained.method({}), 1, 4, 0);
+    add_batch(picture, trained.room, trained.method(), 1, 4, 0);
     const FieldShape& shape = trained.room.shape;
     HostCosineLobes& lobes = trained.lobes;
     const std::size_t volumes = volume_count(lobes);
