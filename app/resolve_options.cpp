@@ -8,6 +8,7 @@
 #include "app/options.h"
 #include "app/parse_values.h"
 #include "core/base/error.h"
+#include "core/fields/field_kernels.h"
 #include "core/io/files.h"
 #include "core/io/json_document.h"
 #include "core/scene/crop.h"
@@ -125,7 +126,7 @@ void check_combinations(Command command, const Options& options) {
     if (!options.save_field.empty()) require_learning(options);
 }
 
-/// SD-trees, lobes and networks are learned; of the first two, "auto" takes the CPU.
+/// Representations other than the table are learned; of those that devices have no kernels for, "auto" takes the CPU.
 void settle_representation(Options& options) {
     const FieldSettings& field = options.render.field;
     if (field.representation == Representation::Table) return;
@@ -137,7 +138,7 @@ void settle_representation(Options& options) {
     if (!has_target(field.representation, field.learning.target))
         throw Error(ErrorKind::Usage, fmt::format("--learn target={}: expected --field table with it, got --field {}",
                                                   name_of(field.learning.target), name));
-    if (has_tables(field.representation)) return;
+    if (is_for_devices(field.representation)) return;
     const auto is_cuda = [](const std::string& backend) { return backend == "cuda"; };
     if (is_cuda(options.backend) || std::ranges::any_of(options.backends, is_cuda))
         throw Error(

@@ -34,7 +34,7 @@ Json target_json(const bench::ErrorTarget* target) {
 }
 
 Json network_json(const NetworkStatus& network) {
-    return {{"bytes", network_bytes()}, {"steps", network.steps}, {"lost", network.is_lost}};
+    return {{"bytes", kNetworkBytes}, {"steps", network.steps}, {"lost", network.is_lost}};
 }
 
 Json field_json(const std::optional<FieldStatus>& field) {

@@ -9,16 +9,13 @@
 
 #include "core/base/error.h"
 #include "core/fields/field_kernels.h"
-#include "core/fields/lobe_update.h"
-#include "core/fields/sd_tree_update.h"
 #include "core/kernel/inspect/heat_map.h"
 #include "core/kernel/integrator/sampled_lights.h"
 #include "core/scene/pack_scene.h"
 #include "core/session/exact_backend.h"
 #include "cpu/base/lane_kernels.h"
 #include "cpu/base/parallel_for.h"
-#include "cpu/learning/neural_update.h"
-#include "cpu/learning/volume_update.h"
+#include "cpu/learning/field_update.h"
 #include "cpu/passes/film_store.h"
 #include "cpu/passes/pass_kernels.h"
 #include "cpu/rays/batch_tracer.h"
@@ -40,7 +37,7 @@ std::string cpu_name() {
 /// The kernel of a pass, for the representation of its field.
 PictureKernel kernel_for(const PassRequest& request, const AnyFieldView& field) {
     PictureKernel kernel = nullptr;
-    with_kernel_of(sampled_representation(field), request.method(), request.learning, request.trains,
+    with_kernel_of(representation_of(field), request.method(), request.learning, request.trains,
                    [&]<int kEntry>() { kernel = picture_kernel<kEntry>(request.features); });
     return kernel;
 }
@@ -147,7 +144,7 @@ public:
 
     void update_field(MethodId method) override {
         StoredField& learned = existing_field(method);
-        std::visit([&](auto& arrays) { update(arrays, learned.is_updated); }, learned.arrays);
+        pl::update_field(shape_, *volumes_, learned.arrays, learned.is_updated, settings_.threads);
         learned.is_updated = true;
     }
 
@@ -166,21 +163,6 @@ private:
                 .batch_paths = settings_.batch_paths};
     }
 
-    void update(HostTables& tables, bool is_updated) const {
-        const LaneKernels& kernels = best_lane_kernels();
-        const TableUpdateView field = update_view(shape_, tables);
-        for_each_volume(volume_count(tables), [&](std::uint32_t volume) {
-            if (!is_updated || has_new_samples(kernels, field, volume))
-                update_volume_in_lanes(kernels, field, volume);
-        });
-    }
-    void update(HostSdTree& tree, bool) const { update_sd_tree(shape_, tree, settings_.threads); }
-    void update(HostLobes& lobes, bool) const { update_lobes(shape_, lobes, settings_.threads); }
-    void update(HostNeural& field, bool is_updated) const {
-        update(static_cast<HostTables&>(field), is_updated);
-        update_network(shape_, *volumes_, field, settings_.threads);
-    }
-
     StoredField& existing_field(MethodId method) {
         std::optional<StoredField>& field = fields_[index_of(method)];
         if (!field)
@@ -192,19 +174,9 @@ private:
         AnyFieldView field = field_view(shape_, *volumes_, existing_field(method).arrays);
         visit_field(field, [&](auto& view) {
             view.writers = settings_.threads == 1 ? Writers::One : Writers::Many;
-            if constexpr (std::is_same_v<std::remove_cvref_t<decltype(view)>, NeuralField>)
-                view.evaluate = best_lane_kernels().evaluate_vertex;
+            if constexpr (requires { view.evaluate; }) view.evaluate = best_lane_kernels().evaluate_vertex;
         });
         return field;
-    }
-
-    template <class Fn>
-    void for_each_volume(std::size_t volumes, Fn&& fn) const {
-        constexpr std::uint32_t kVolumeChunk = 16;
-        ChunkQueue queue(0, static_cast<std::uint32_t>(volumes), kVolumeChunk);
-        parallel_for(settings_.threads, queue, [&](IndexRange range) {
-            for (std::uint32_t volume = range.begin; volume < range.end; ++volume) fn(volume);
-        });
     }
 
     /// The placement and, for heat maps, one value per volume; empty for views that need neither.
@@ -222,7 +194,7 @@ private:
             [&](auto& arrays) {
                 const VolumeSummary auto summary = summary_of(shape_, *volumes_, arrays);
                 volume_values_.resize(volume_count(arrays));
-                for_each_volume(volume_values_.size(), [&](std::uint32_t volume) {
+                for_each_volume(volume_values_.size(), settings_.threads, [&](std::uint32_t volume) {
                     volume_values_[volume] = volume_value(summary, volume, slot.view);
                 });
             },

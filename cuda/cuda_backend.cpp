@@ -109,16 +109,15 @@ private:
 void CudaBackend::launch_picture(const PassRequest& request, const PixelPaths& pixels) {
     const MethodId id = request.method();
     const AnyFieldView field = info_of(id).uses_field ? fields_.view(id) : AnyFieldView{};
-    with_kernel_of(sampled_representation(field), request.method(), request.learning, request.trains,
-                   [&]<int kEntry>() {
-                       // Representations of the host alone are refused when their field is uploaded.
-                       if constexpr (!TypeAt<kEntry, MethodList>::kIsForHostAlone) {
-                           IntegratorAt<kEntry> method;
-                           configure_method(method, field, request.method_settings());
-                           launch_paths(picture_kernels<kEntry>()[covering_set(request.features)], request.path,
-                                        to_kernel(method), pixels);
-                       }
-                   });
+    with_kernel_of(representation_of(field), request.method(), request.learning, request.trains, [&]<int kEntry>() {
+        // Fields with other kernels, of the host alone, are refused when they are uploaded.
+        if constexpr (kEntry < MethodList::kCount) {
+            IntegratorAt<kEntry> method;
+            configure_method(method, field, request.method_settings());
+            launch_paths(picture_kernels<kEntry>()[covering_set(request.features)], request.path, to_kernel(method),
+                         pixels);
+        }
+    });
 }
 
 void CudaBackend::launch_view(const PassRequest& request, const ViewContext& context, PathRange range) {

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include "core/base/usable_threads.h"
+#include "core/fields/field_choices.h"
+#include "core/fields/field_kernels.h"
 #include "cpu/learning/neural_update.h"
 
 namespace pl::cuda {
@@ -19,11 +21,13 @@ void DeviceFields::place(std::shared_ptr<const HostVolumes> volumes, const Field
 void DeviceFields::upload(MethodId method, const HostField& field) {
     if (volumes_.normals.size() == 0)
         throw Error(ErrorKind::Runtime, "CUDA back end: expected volumes before tables, got none");
-    if (!has_tables(representation_of(field)))
-        throw Error(ErrorKind::Unavailable,
-                    fmt::format("CUDA back end: expected a field of tables, got {}, which the CPU serves: take "
-                                "--backend cpu or --field table",
-                                std::holds_alternative<HostSdTree>(field) ? "an SD-tree" : "lobes"));
+    const Representation representation = representation_of(field);
+    if (!is_for_devices(representation))
+        throw Error(
+            ErrorKind::Unavailable,
+            fmt::format("CUDA back end: expected a field of tables, got --field {}, which the CPU serves: take "
+                        "--backend cpu or --field table",
+                        name_of(representation)));
     StoredField uploaded;
     zip_fields(field, uploaded.arrays, [&](const auto& from, auto& to) { to.upload(from, stream_); });
     gather_records(uploaded);
@@ -79,7 +83,7 @@ void DeviceFields::teach_network(MethodId method) {
     update_network(shape_, *host_volumes_, neural, usable_threads());
     auto& arrays = std::get<NeuralStorage<DeviceArray>>(stored.arrays);
     for_each_network_array([&](const auto& spec) { spec.get(arrays).upload(spec.get(neural), stream_); });
-    stored.report.network = status_of(neural);
+    stored.report = report_of(field);
     gather_records(stored);
     stream_.wait("updating a network");
 }
@@ -87,11 +91,9 @@ void DeviceFields::teach_network(MethodId method) {
 AnyFieldView DeviceFields::view(MethodId method) {
     StoredField& stored = existing(method);
     AnyFieldView view = field_view(shape_, volumes_, stored.arrays);
-    const Span<const VolumeRecord> records = view_of(std::as_const(stored.records));
-    if (auto* neural = std::get_if<NeuralField>(&view))
-        neural->records = records;
-    else
-        std::get<TableField>(view).records = records;
+    visit_field(view, [&](auto& field) {
+        if constexpr (requires { field.records; }) field.records = view_of(std::as_const(stored.records));
+    });
     return view;
 }
 
@@ -106,8 +108,13 @@ ShownField DeviceFields::shown(const FilmSlot& slot) {
 
 /// The tables of a field that has them.
 DeviceFields::Tables& DeviceFields::tables_of(Arrays& arrays) {
-    if (auto* neural = std::get_if<NeuralStorage<DeviceArray>>(&arrays)) return *neural;
-    return std::get<Tables>(arrays);
+    Tables* tables = nullptr;
+    std::visit(
+        [&](auto& stored) {
+            if constexpr (std::derived_from<std::remove_cvref_t<decltype(stored)>, Tables>) tables = &stored;
+        },
+        arrays);
+    return *tables;  // others are refused when they are uploaded
 }
 
 DeviceFields::StoredField& DeviceFields::existing(MethodId method) {
@@ -132,11 +139,15 @@ Span<const float> DeviceFields::volume_values(const FilmSlot& slot) {
     const TableUpdateView field = update_view(shape_, tables_of(arrays));
     const std::uint32_t volumes = field.mean_radiance.count;
     if (volume_values_.size() != volumes) volume_values_ = DeviceArray<float>(volumes);
-    if (std::holds_alternative<NeuralStorage<DeviceArray>>(arrays)) {
+    if (representation_of(arrays) != Representation::Table) {
         HostField on_host = download(method);
-        const auto summary = summary_of(shape_, *host_volumes_, std::get<HostNeural>(on_host));
         std::vector<float> values(volumes);
-        for (std::uint32_t i = 0; i < volumes; ++i) values[i] = volume_value(summary, i, slot.view);
+        std::visit(
+            [&](auto& host_arrays) {
+                const VolumeSummary auto summary = summary_of(shape_, *host_volumes_, host_arrays);
+                for (std::uint32_t i = 0; i < volumes; ++i) values[i] = volume_value(summary, i, slot.view);
+            },
+            on_host);
         volume_values_.upload(values, stream_);
         stream_.wait("uploading a heat map");
     } else {

@@ -7,7 +7,6 @@
 #include <optional>
 
 #include "core/fields/field_model.h"
-#include "core/fields/pending_sums.h"
 #include "core/session/film_slots.h"
 #include "cuda/kernels/kernels.h"
 #include "cuda/runtime/device_array.h"

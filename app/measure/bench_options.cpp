@@ -9,7 +9,7 @@
 #include "app/open_scene.h"
 #include "app/option_parsers.h"
 #include "core/base/error.h"
-#include "core/fields/field_shape.h"
+#include "core/fields/field_kernels.h"
 
 namespace pl {
 namespace {
@@ -86,7 +86,7 @@ bench::BenchPlan make_bench_plan(const CommandLine& line, Console& console) {
                           .seeds = line.options.seeds};
     const bool is_on_cpu = std::ranges::any_of(plan.scenes, [&](const bench::BenchScene& scene) {
         return std::ranges::any_of(plan.methods, [&](const bench::BenchMethod& method) {
-            return !has_tables(method.settings(scene.settings).field.representation);
+            return !is_for_devices(method.settings(scene.settings).field.representation);
         });
     });
     if (plan.backend_names.empty())

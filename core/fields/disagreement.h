@@ -3,8 +3,6 @@
 
 #include <vector>
 
-#include "core/kernel/guiding/lobe_field.h"
-#include "core/kernel/guiding/sd_tree_field.h"
 #include "core/kernel/guiding/table_field.h"
 
 namespace pl {
@@ -29,9 +27,5 @@ double hellinger2(const TableField& field, std::int32_t volume, std::int32_t oth
 ///   docs/notebook/2026-11-22-refinement.md.
 /// None with a product of 0. Does not depend on the number of threads.
 std::vector<std::uint32_t> volumes_to_split(const TableField& field, std::size_t most, int threads);
-/// None: an SD-tree is refined by its updates.
-inline std::vector<std::uint32_t> volumes_to_split(const SdTreeField&, std::size_t, int) { return {}; }
-/// None: mixtures are refined by lobes, not by volumes.
-inline std::vector<std::uint32_t> volumes_to_split(const LobeField&, std::size_t, int) { return {}; }
 
 }  // namespace pl

@@ -4,7 +4,7 @@
 #include <array>
 
 #include "core/base/choice.h"
-#include "core/fields/field_shape.h"
+#include "core/fields/field_model.h"
 
 namespace pl {
 
@@ -29,13 +29,6 @@ inline constexpr auto kChoices<LearnedLight> = std::to_array<ChoiceInfo<LearnedL
 });
 
 template <>
-inline constexpr auto kChoices<Representation> = std::to_array<ChoiceInfo<Representation>>({
-    {Representation::Table, "table", "Table", "cells of directions in each radiance volume"},
-    {Representation::SdTree, "sd-tree", "SD-tree",
-     "quadtrees over directions at the leaves of a tree over space, on the CPU alone"},
-    {Representation::Lobes, "lobes", "Lobes",
-     "a mixture of von Mises-Fisher lobes in each radiance volume, on the CPU alone"},
-    {Representation::Neural, "neural", "Neural", "a network that gives each vertex a mixture of lobes"},
-});
+inline constexpr auto kChoices<Representation> = kRepresentations;
 
 }  // namespace pl

@@ -1,83 +1,136 @@
-// All representations of a guiding field on the host. Back ends, session and files speak HostField and AnyFieldView and call the
-// functions below, each of which a representation overloads for its own arrays (table_model.h is the first). A representation is
-// its kernel model (GuidingField), its storage with these overloads, one entry in each of the two lists, and its tests.
+// All representations of a guiding field on the host: their list, and what back ends, session and files do with a field of any of them.
 #pragma once
 
+#include <array>
 #include <utility>
 #include <variant>
 
 #include "core/fields/lobe_model.h"
 #include "core/fields/neural_model.h"
 #include "core/fields/sd_tree_model.h"
+#include "core/kernel/base/type_list.h"
 #include "core/kernel/methods/method.h"
 
 namespace pl {
 
+/// In the order in which users choose. A representation is its kernel model, its FieldModel, and its line here.
+// clang-format off
+using FieldModels = TypeList<
+    TableModel,
+    SdTreeModel,
+    LobeModel,
+    NeuralModel
+>;
+// clang-format on
+
+template <class... Models>
+constexpr auto infos_of(TypeList<Models...>) {
+    return std::array{Models::kInfo...};
+}
+inline constexpr auto kRepresentations = infos_of(FieldModels{});
+
+/// Calls visit.operator()<Model>() with the model of a representation, which is one of the list.
+template <class Visit>
+constexpr void with_model(Representation representation, Visit&& visit) {
+    any_of_types(FieldModels{}, [&]<class Model>() {
+        if (Model::kInfo.value != representation) return false;
+        visit.template operator()<Model>();
+        return true;
+    });
+}
+
+/// Time that guiding takes at a vertex, over that by a table.
+constexpr double guidance_of(Representation representation) {
+    double guidance = 1.0;
+    with_model(representation, [&]<class Model>() { guidance = Model::kGuidance; });
+    return guidance;
+}
+
+/// Whether tables of radiance volumes keep what is learned: then they are refined, and sampled or the teacher of what is.
+constexpr bool has_tables(Representation representation) {
+    bool has = false;
+    with_model(representation, [&]<class Model>() { has = std::derived_from<typename Model::Field, TableField>; });
+    return has;
+}
+
+template <template <class> class Array, class... Models>
+std::variant<typename Models::template Storage<Array>...> any_arrays_of(TypeList<Models...>);
+template <class... Models>
+std::variant<std::monostate, typename Models::Field...> any_view_of(TypeList<Models...>);
+
 /// The arrays of a field in memory of one kind, by representation.
 template <template <class> class Array>
-using FieldArrays = std::variant<TableStorage<Array>, SdTreeStorage<Array>, LobeStorage<Array>, NeuralStorage<Array>>;
+using FieldArrays = decltype(any_arrays_of<Array>(FieldModels{}));
 using HostField = FieldArrays<LargeArray>;
 
 /// A field as kernels see it; std::monostate for methods without one.
-using AnyFieldView = std::variant<std::monostate, TableField, SdTreeField, LobeField, NeuralField>;
+using AnyFieldView = decltype(any_view_of(FieldModels{}));
 
 /// The representation of a field's arrays: their place in the variant.
-template <class Field>
-Representation representation_of(const Field& field) {
-    return kAllRepresentations[field.index()];
+template <FieldStorage... Storages>
+Representation representation_of(const std::variant<Storages...>& field) {
+    return kRepresentations[field.index()].value;
+}
+/// That of a view; the table without a field.
+inline Representation representation_of(const AnyFieldView& field) {
+    return field.index() == 0 ? Representation::Table : kRepresentations[field.index() - 1].value;
 }
 
 /// Arrays without values.
-template <template <class> class Array>
-void clear_to(FieldArrays<Array>& field, Representation representation) {
-    switch (representation) {
-    case Representation::Table: field = TableStorage<Array>{}; return;
-    case Representation::SdTree: field = SdTreeStorage<Array>{}; return;
-    case Representation::Lobes: field = LobeStorage<Array>{}; return;
-    case Representation::Neural: field = NeuralStorage<Array>{}; return;
-    }
+template <FieldStorage... Storages>
+void clear_to(std::variant<Storages...>& field, Representation representation) {
+    const auto clear = [&]<class Storage>() {
+        if (ModelOf<Storage>::kInfo.value == representation) field.template emplace<Storage>();
+    };
+    (clear.template operator()<Storages>(), ...);
 }
 
 /// A field without training samples.
 inline HostField make_field(const FieldShape& shape, std::size_t volumes, Representation representation) {
-    if (representation == Representation::SdTree) return make_sd_tree(shape, volumes);
-    if (representation == Representation::Lobes) return make_lobes(shape, volumes);
-    if (representation == Representation::Neural) return make_neural(shape, volumes);
-    return make_tables(shape, volumes);
+    HostField field;
+    with_model(representation, [&]<class Model>() {
+        field = make_arrays<typename Model::template Storage<LargeArray>>(shape, volumes);
+    });
+    return field;
 }
 
-/// Whether all arrays have the length that follows from the shape and the number of volumes.
 inline bool fits(const FieldShape& shape, const HostField& field, std::size_t volumes) {
     return std::visit([&](const auto& arrays) { return fits(shape, arrays, volumes); }, field);
 }
-
 inline std::size_t field_bytes(const HostField& field) {
     return std::visit([](const auto& arrays) { return field_bytes(arrays); }, field);
 }
-
-/// What is told of a field without its arrays.
-struct FieldReport {
-    std::size_t bytes = 0;                   ///< of its arrays
-    std::optional<NetworkStatus> network{};  ///< of a neural field
-};
 inline FieldReport report_of(const HostField& field) {
-    const auto* neural = std::get_if<HostNeural>(&field);
-    return {.bytes = field_bytes(field),
-            .network = neural != nullptr ? std::optional(status_of(*neural)) : std::nullopt};
+    return std::visit([](const auto& arrays) { return report_of(arrays); }, field);
+}
+/// The report of a field of which it tells bytes alone, all of which volumes own; none of others.
+inline std::optional<FieldReport> report_by_shape(const FieldShape& shape, std::size_t volumes,
+                                                  Representation representation) {
+    std::optional<FieldReport> report;
+    with_model(representation, [&]<class Model>() {
+        using Storage = typename Model::template Storage<LargeArray>;
+        bool is_by_volume = true;
+        for_each_array_of<Storage>([&](const auto& spec) {
+            is_by_volume = is_by_volume && kIsByVolume<std::remove_cvref_t<decltype(spec)>>;
+        });
+        if (is_by_volume) report = FieldReport{.bytes = volumes * bytes_by_volume<Storage>(shape)};
+    });
+    return report;
+}
+/// Its directions in words: "256 directions".
+inline std::string text_of(const FieldShape& shape, const HostField& field) {
+    return std::visit([&](const auto& arrays) { return ModelOf<decltype(arrays)>::text(shape, arrays); }, field);
 }
 
 /// Calls fn(array of `from`, array of `to`) for every array, after `to` has got the representation of `from`.
-template <template <class> class From, template <class> class To, class Fn>
-void zip_fields(const FieldArrays<From>& from, FieldArrays<To>& to, Fn&& fn) {
+template <FieldStorage... From, FieldStorage... To, class Fn>
+void zip_fields(const std::variant<From...>& from, std::variant<To...>& to, Fn&& fn) {
     clear_to(to, representation_of(from));
-    if (const auto* tree = std::get_if<SdTreeStorage<From>>(&from))
-        zip(*tree, std::get<SdTreeStorage<To>>(to), fn);
-    else if (const auto* lobes = std::get_if<LobeStorage<From>>(&from))
-        zip(*lobes, std::get<LobeStorage<To>>(to), fn);
-    else if (const auto* neural = std::get_if<NeuralStorage<From>>(&from))
-        zip(*neural, std::get<NeuralStorage<To>>(to), fn);
-    else
-        zip(std::get<TableStorage<From>>(from), std::get<TableStorage<To>>(to), fn);
+    std::visit(
+        [&](const auto& source, auto& target) {
+            if constexpr (std::same_as<ModelOf<decltype(source)>, ModelOf<decltype(target)>>) zip(source, target, fn);
+        },
+        from, to);
 }
 
 /// The field of a refined placement: volume i of the new ones, behind the others, is split off parents[i].
@@ -89,20 +142,24 @@ inline HostField split_field(const FieldShape& shape, HostField field, std::span
         std::move(field));
 }
 
+/// One volume as make_field() makes it: it has learned nothing. `volume` is below volume_count().
+inline void forget_volume(const FieldShape& shape, const HostVolumes& volumes, HostField& field, std::size_t volume) {
+    std::visit([&](auto& arrays) { forget_volume(shape, volumes, arrays, volume); }, field);
+}
+
 /// Views for kernels that trace paths.
-template <template <class> class Array, template <class> class FieldArray>
+template <template <class> class Array, FieldStorage... Storages>
 AnyFieldView field_view(const FieldShape& shape, const VolumeStorage<Array>& volumes,
-                        FieldArrays<FieldArray>& field) {
+                        std::variant<Storages...>& field) {
     return std::visit([&](auto& arrays) -> AnyFieldView { return field_view(shape, volumes, arrays); }, field);
 }
 
 /// Calls visit(view) with the view that `field`, an AnyFieldView, holds. Throws std::bad_variant_access if it holds none.
-template <class Any, class Visit>
+template <std::size_t kFirst = 1, class Any, class Visit>
 decltype(auto) visit_field(Any& field, Visit&& visit) {
-    if (auto* tree = std::get_if<SdTreeField>(&field)) return visit(*tree);
-    if (auto* lobes = std::get_if<LobeField>(&field)) return visit(*lobes);
-    if (auto* neural = std::get_if<NeuralField>(&field)) return visit(*neural);
-    return visit(std::get<TableField>(field));
+    if constexpr (kFirst + 1 < std::variant_size_v<std::remove_const_t<Any>>)
+        if (field.index() != kFirst) return visit_field<kFirst + 1>(field, visit);
+    return visit(std::get<kFirst>(field));
 }
 
 /// What a method is told that is constant during a pass.

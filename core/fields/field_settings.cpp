@@ -6,9 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/base/memory.h"
-#include "core/fields/lobe_model.h"
-#include "core/fields/neural_model.h"
-#include "core/fields/sd_tree_model.h"
+#include "core/fields/field_model.h"
 #include "core/fields/volume_grid.h"
 #include "core/scene/pack_scene.h"
 
@@ -19,35 +17,58 @@ constexpr double kBytesPerMegabyte = 1.0e6;
 
 int side_of(int bins) { return static_cast<int>(std::lround(std::sqrt(static_cast<double>(bins)))); }
 
-/// Bytes of a volume. The methods of a session share its placement, so that it holds tables, too.
-std::size_t bytes_of_each(const FieldSettings& settings, std::size_t light_clusters) {
-    std::size_t bytes = bytes_per_volume(settings.bins, light_clusters);
-    if (settings.representation == Representation::Lobes)
-        bytes += std::max(lobe_bytes(light_clusters), table_bytes(settings.bins, light_clusters)) -
-                 table_bytes(settings.bins, light_clusters);
-    return bytes;
+/// Bytes of placement, tree and grid of a volume.
+constexpr std::size_t kPlacementBytes = sizeof(SurfacePoint) + sizeof(Vec3f) + sizeof(KdNode) + kGridBytesPerVolume;
+
+FieldShape shape_of(const FieldSettings& settings, std::size_t light_clusters) {
+    return {.cells = {side_of(settings.bins)}, .light_clusters = static_cast<std::uint32_t>(light_clusters)};
 }
 
-/// Bytes of the network of a field; 0 without one.
-std::size_t bytes_of_network(const FieldSettings& settings) {
-    return settings.representation == Representation::Neural ? network_bytes() : 0;
+/// Bytes of a volume. The methods of a session share its placement, so that it holds tables, too.
+std::size_t bytes_of_each(const FieldSettings& settings, std::size_t light_clusters) {
+    std::size_t bytes = table_bytes(settings.bins, light_clusters);
+    with_model(settings.representation, [&]<class Model>() {
+        using Storage = typename Model::template Storage<LargeArray>;
+        bytes = std::max(bytes, bytes_by_volume<Storage>(shape_of(settings, light_clusters)));
+    });
+    return kPlacementBytes + bytes;
+}
+
+/// Bytes of the arrays of a field that are the same for any number of volumes.
+std::size_t bytes_beside_volumes(const FieldSettings& settings) {
+    std::size_t bytes = 0;
+    with_model(settings.representation, [&]<class Model>() {
+        if constexpr (requires { Model::kBytesBesideVolumes; }) bytes = Model::kBytesBesideVolumes;
+    });
+    return bytes;
 }
 
 /// Number of volumes within the budget.
 double affordable(const FieldSettings& settings, std::size_t light_clusters) {
     const double left =
-        settings.budget_megabytes * kBytesPerMegabyte - static_cast<double>(bytes_of_network(settings));
+        settings.budget_megabytes * kBytesPerMegabyte - static_cast<double>(bytes_beside_volumes(settings));
     return std::max(left, 0.0) / static_cast<double>(bytes_of_each(settings, light_clusters));
 }
 
-/// Nodes of an SD-tree within the budget, which its volumes share.
+/// Nodes of a representation of trees within the budget, which its volumes share.
+template <class Model>
 std::uint32_t affordable_nodes(const FieldSettings& settings, std::size_t light_clusters) {
-    const std::size_t per_volume =
-        bytes_per_volume(settings.bins) - table_bytes(settings.bins) + sd_tree_bytes_per_volume(light_clusters);
+    using Storage = typename Model::template Storage<LargeArray>;
+    const std::size_t per_volume = kPlacementBytes + bytes_by_volume<Storage>(shape_of(settings, light_clusters));
     const double volumes = static_cast<double>(per_volume) * volume_count(settings, light_clusters);
     const double left = settings.budget_megabytes * kBytesPerMegabyte - volumes;
-    const double nodes = left / static_cast<double>(sd_tree_bytes_per_node());
-    return static_cast<std::uint32_t>(std::clamp(nodes, 64.0, static_cast<double>(kMostQuadNodes)));
+    const double nodes = left / static_cast<double>(Model::bytes_of_node());
+    return static_cast<std::uint32_t>(std::clamp(nodes, 64.0, static_cast<double>(Model::kMostNodes)));
+}
+
+/// Those of the representation of trees, whatever the settings choose: a shape is told in full.
+std::uint32_t nodes_of_shape(const FieldSettings& settings, std::size_t light_clusters) {
+    std::uint32_t nodes = 1;
+    any_of_types(FieldModels{}, [&]<class Model>() {
+        if constexpr (requires { Model::kMostNodes; }) nodes = affordable_nodes<Model>(settings, light_clusters);
+        return requires { Model::kMostNodes; };
+    });
+    return nodes;
 }
 
 /// Smallest power of two not below `value`, kept where neither dividing by it nor kMaxRecordedUnits times it can
@@ -78,16 +99,17 @@ float brightest_by_delta_lights(const HostScene& scene, float diagonal) {
 }  // namespace
 
 std::size_t bytes_per_volume(int bins, std::size_t light_clusters) {
-    return sizeof(SurfacePoint) + sizeof(Vec3f) + sizeof(KdNode) + kGridBytesPerVolume +
-           table_bytes(bins, light_clusters);
+    return kPlacementBytes + table_bytes(bins, light_clusters);
 }
 
 void require_field_memory(const FieldSettings& settings, std::size_t light_clusters) {
     const int volumes = volume_count(settings, light_clusters);
-    std::uint64_t bytes =
-        bytes_of_network(settings) + static_cast<std::uint64_t>(volumes) * bytes_of_each(settings, light_clusters);
-    if (settings.representation == Representation::SdTree)
-        bytes += affordable_nodes(settings, light_clusters) * sd_tree_bytes_per_node();
+    std::uint64_t bytes = bytes_beside_volumes(settings) +
+                          static_cast<std::uint64_t>(volumes) * bytes_of_each(settings, light_clusters);
+    with_model(settings.representation, [&]<class Model>() {
+        if constexpr (requires { Model::kMostNodes; })
+            bytes += affordable_nodes<Model>(settings, light_clusters) * Model::bytes_of_node();
+    });
     require_memory(fmt::format("{} radiance volumes of {} directions", volumes, settings.bins), 0, ErrorKind::Usage,
                    bytes);
 }
@@ -131,7 +153,7 @@ FieldShape make_field_shape(const HostScene& scene, const FieldSettings& setting
             .representation = settings.representation,
             .corner = bounds.empty() ? Vec3f{0.0f} : bounds.low,
             .edge = edge > 0.0f && edge < kInfinity ? edge : 1.0f,
-            .most_nodes = affordable_nodes(settings, light_clusters)};
+            .most_nodes = nodes_of_shape(settings, light_clusters)};
 }
 
 std::size_t volume_bytes(const HostVolumes& volumes) {

@@ -1,7 +1,7 @@
 // The size and meaning of a field's arrays: shared by all representations.
 #pragma once
 
-#include <array>
+#include <cstdint>
 
 #include "core/kernel/guiding/direction_cells.h"
 #include "core/kernel/guiding/table_update.h"
@@ -10,7 +10,8 @@
 
 namespace pl {
 
-/// How a method that learns represents incident radiance. Files store these numbers.
+/// How a method that learns represents incident radiance. Files store these numbers, which are those of the models (FieldModel); the
+/// constants name those of this project for tests and front ends.
 enum class Representation : std::uint32_t {
     Table,   ///< a table of cells per radiance volume
     SdTree,  ///< quadtrees over directions at the leaves of a binary tree over space   [Mueller et al. 2017]
@@ -18,21 +19,6 @@ enum class Representation : std::uint32_t {
     /// A network that gives every vertex its mixture of lobes, taught by tables   [Dong et al. 2023]. 3 was another one.
     Neural = 4,
 };
-
-/// In the order of FieldArrays.
-inline constexpr std::array kAllRepresentations{Representation::Table, Representation::SdTree, Representation::Lobes,
-                                                Representation::Neural};
-
-/// Whether tables of radiance volumes keep what is learned: then they are refined, and sampled or the teacher of what is; and both
-/// back ends have kernels for it.
-constexpr bool has_tables(Representation representation) {
-    return representation != Representation::SdTree && representation != Representation::Lobes;
-}
-
-/// Whether there are kernels that train a representation by a target: for other targets than that of Expected Sarsa only for tables.
-constexpr bool has_target(Representation representation, LearningTarget target) {
-    return target == LearningTarget::ExpectedSarsa || representation == Representation::Table;
-}
 
 struct FieldShape {
     DirectionCells cells;

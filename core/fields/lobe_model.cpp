@@ -2,11 +2,14 @@
 
 #include <cmath>
 
+#include <fmt/format.h>
+
 namespace pl {
 namespace {
 
-std::string wrong_value(const char* part, std::size_t i, double got) {
-    return std::string(part) + " " + std::to_string(i) + ": got " + std::to_string(got);
+FieldDamage wrong_value(const char* part, std::size_t i, double got) {
+    return {"lobes", fmt::format("mixtures of 1 to {} lobes", kMostLobes),
+            std::string(part) + " " + std::to_string(i) + ": got " + std::to_string(got)};
 }
 
 /// Relative density of the mixture of a volume, by direction.
@@ -14,13 +17,6 @@ auto density_of(const LobeField& field, std::uint32_t volume) {
     return [mixture = field.product_at(volume, Vec3f{0.0f}, {0.0f, 0.0f, 1.0f})](Vec3f local) {
         return relative_density(mixture, local);
     };
-}
-
-/// Gives the values [first, first + length) those of a volume without training samples.
-template <class Spec, class Array>
-void make_fresh(const Spec& spec, Array& values, std::size_t first, std::size_t length) {
-    using Value = typename Array::value_type;
-    for (std::size_t i = 0; i < length; ++i) values[first + i] = static_cast<Value>(spec.initial(i));
 }
 
 }  // namespace
@@ -36,77 +32,9 @@ float first_mean(std::size_t i) {
     return static_cast<float>(components[i % 3]);
 }
 
-std::size_t extent_of(LobeExtent extent, const FieldShape& shape, std::size_t volumes) {
-    switch (extent) {
-    case LobeExtent::Lobe: return volumes * kMostLobes;
-    case LobeExtent::LobeAxis: return volumes * kMostLobes * 3;
-    case LobeExtent::LobeStatistic: return volumes * kMostLobes * kLobeMoments;
-    case LobeExtent::Volume: return volumes;
-    case LobeExtent::LightCluster: return volumes * shape.light_clusters;
-    }
-    return 0;
-}
+std::string LobeModel::text(const FieldShape&, const HostLobes&) { return fmt::format("up to {} lobes", kMostLobes); }
 
-HostLobes make_lobes(const FieldShape& shape, std::size_t volumes) {
-    HostLobes lobes;
-    for_each_lobe_array([&](const auto& spec) {
-        auto& values = spec.get(lobes);
-        values.resize(extent_of(spec.extent, shape, volumes));
-        const std::size_t length = extent_of(spec.extent, shape, 1);
-        for (std::size_t volume = 0; volume < volumes; ++volume) make_fresh(spec, values, volume * length, length);
-    });
-    return lobes;
-}
-
-void reset_lobes(const FieldShape& shape, HostLobes& lobes, std::size_t volume) {
-    for_each_lobe_array([&](const auto& spec) {
-        const std::size_t length = extent_of(spec.extent, shape, 1);
-        make_fresh(spec, spec.get(lobes), volume * length, length);
-    });
-}
-
-bool fits(const FieldShape& shape, const HostLobes& lobes, std::size_t volumes) {
-    bool all = true;
-    for_each_lobe_array(
-        [&](const auto& spec) { all = all && spec.get(lobes).size() == extent_of(spec.extent, shape, volumes); });
-    return all;
-}
-
-std::size_t field_bytes(const HostLobes& lobes) {
-    std::size_t bytes = 0;
-    for_each_lobe_array([&](const auto& spec) { bytes += spec.get(lobes).size() * sizeof *spec.get(lobes).data(); });
-    return bytes;
-}
-
-std::size_t lobe_bytes(std::size_t light_clusters) {
-    const FieldShape shape{.cells = {}, .light_clusters = static_cast<std::uint32_t>(light_clusters)};
-    const HostLobes lobes;
-    std::size_t bytes = 0;
-    for_each_lobe_array(
-        [&](const auto& spec) { bytes += extent_of(spec.extent, shape, 1) * sizeof *spec.get(lobes).data(); });
-    return bytes;
-}
-
-HostLobes split_field(const FieldShape& shape, HostLobes lobes, std::span<const std::uint32_t> parents) {
-    const std::size_t volumes = volume_count(lobes);
-    for_each_lobe_array([&](const auto& spec) {
-        auto& values = spec.get(lobes);
-        const std::size_t length = extent_of(spec.extent, shape, 1);
-        values.resize((volumes + parents.size()) * length);
-        for (std::size_t i = 0; i < parents.size() * length; ++i) {
-            using Value = std::remove_cvref_t<decltype(values[0])>;
-            auto& parent = values[parents[i / length] * length + i % length];
-            auto& child = values[volumes * length + i];
-            if (spec.on_split == OnSplit::Copy) child = parent;
-            if (spec.on_split == OnSplit::Clear || spec.on_split == OnSplit::Copy) continue;
-            child = parent / static_cast<Value>(2);
-            parent -= child;
-        }
-    });
-    return lobes;
-}
-
-std::optional<std::string> damage_of(const HostLobes& lobes) {
+std::optional<FieldDamage> LobeModel::damage(const HostLobes& lobes) {
     for (std::size_t volume = 0; volume < volume_count(lobes); ++volume) {
         const std::uint32_t count = lobes.lobe_count[volume];
         if (count == 0 || count > kMostLobes) return wrong_value("lobes of volume", volume, count);
@@ -132,7 +60,7 @@ float relative_density(const LobeMixture& mixture, Vec3f local) {
     return relative_to_cosine(mixture.pdf_sa(local), local);
 }
 
-float LobeVolumeSummary::unvisited_share(std::uint32_t volume) const {
+float LobeInspector::unvisited_share(std::uint32_t volume) const {
     constexpr float kDark = 0.01f;
     if (field.samples[volume] == 0) return 1.0f;
     float dark = 0.0f;
@@ -141,8 +69,31 @@ float LobeVolumeSummary::unvisited_share(std::uint32_t volume) const {
     return dark / static_cast<float>(field.cells.count());
 }
 
-float LobeVolumeSummary::entropy(std::uint32_t volume) const {
+float LobeInspector::entropy(std::uint32_t volume) const {
     return entropy_of_cells(field.cells, density_of(field, volume));
+}
+
+float LobeInspector::radiance(std::uint32_t volume, int cell) const {
+    const float mean = mean_of_cell(field.cells, cell, [&](Vec2f square) {
+        return field.radiance_pdf_sa(volume, Vec3f{0.0f}, square_to_cosine_hemisphere(square));
+    });
+    return mean * field.total[volume];
+}
+
+float LobeInspector::probability(std::uint32_t volume, int cell) const {
+    const LobeMixture mixture = mixture_of(volume);
+    const float mean = mean_of_cell(field.cells, cell, [&](Vec2f square) {
+        return relative_density(mixture, square_to_cosine_hemisphere(square));
+    });
+    return mean / static_cast<float>(field.cells.count());
+}
+
+std::uint32_t LobeInspector::samples(std::uint32_t volume, int cell) const {
+    return spread_samples(field.samples[volume], probability(volume, cell));
+}
+
+float LobeInspector::density(std::uint32_t volume, Vec2f square) const {
+    return relative_density(mixture_of(volume), square_to_cosine_hemisphere(square));
 }
 
 }  // namespace pl

@@ -1,4 +1,6 @@
-#include "core/fields/lobe_update.h"
+// The update of mixtures of lobes: one step of expectation-maximization, with the priors, the splits and the merges of Ruppert et al.
+// 2020.
+#include "core/fields/lobe_model.h"
 
 #include "core/base/parallel_chunks.h"
 #include "core/fields/mixture_fit.h"
@@ -21,14 +23,13 @@ void update_mixture(const FieldShape& shape, HostLobes& lobes, std::uint32_t vol
 
 }  // namespace
 
-void update_lobes(const FieldShape& shape, HostLobes& lobes, int threads) {
-    const TableUpdateView lights = light_view(shape, lobes);
-    const TableUpdateView mixture = mixture_view(lobes);
+void LobeModel::update(const FieldShape& shape, const HostVolumes&, HostLobes& lobes, int threads) {
+    const VolumeUpdateView view = volume_update_view(shape, lobes);
     for_chunks(static_cast<std::uint32_t>(volume_count(lobes)), kMixtureChunk, threads, [&](IndexRange range) {
         for (std::uint32_t volume = range.begin; volume < range.end; ++volume) {
             update_mixture(shape, lobes, volume);
-            absorb_volume(shape, lobes, lights, volume);
-            move_mixture(mixture, volume);
+            absorb_volume(view, volume);
+            move_mixture(view, volume);
         }
     });
 }

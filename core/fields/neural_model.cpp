@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "core/fields/lobe_model.h"
+#include <fmt/format.h>
 
 namespace pl {
 namespace {
@@ -20,56 +20,42 @@ void evaluate_vertex_network(const float* weights, const float* inputs, float* o
     evaluate_vertex<float>(weights, inputs, outputs);
 }
 
-void reset_network(HostNeural& field) {
+float first_network_weight(std::size_t i) {
     constexpr float kFirstFeature = 0.05f;
-    for_each_network_array([&](const auto& spec) { spec.get(field).assign(spec.length, {}); });
-    field.counts[kNetworkVersion] = kNetworkLayoutVersion;
-    // The last layer stays 0, so that an untrained network changes nothing.
-    for (std::size_t i = 0; i < kFirstLayer; ++i) field.weights[i] = kFirstFeature * scattered(i);
     const float first = std::sqrt(6.0f / static_cast<float>(kConstantInput));
     const float second = std::sqrt(6.0f / static_cast<float>(kHiddenUnits));
-    for (std::size_t i = kFirstLayer; i < kSecondLayer; ++i) field.weights[i] = first * scattered(i);
-    for (std::size_t i = kSecondLayer; i < kSecondLayer + std::size_t{kHiddenUnits} * kHiddenUnits; ++i)
-        field.weights[i] = second * scattered(i);
-    field.average = field.weights;
+    if (i < kFirstLayer) return kFirstFeature * scattered(i);
+    if (i < kSecondLayer) return first * scattered(i);
+    return i < kSecondLayer + std::size_t{kHiddenUnits} * kHiddenUnits ? second * scattered(i) : 0.0f;
 }
 
-HostNeural make_neural(const FieldShape& shape, std::size_t volumes) {
-    HostNeural field;
-    static_cast<HostTables&>(field) = make_tables(shape, volumes);
-    reset_network(field);
-    return field;
-}
-
-bool fits(const FieldShape& shape, const HostNeural& field, std::size_t volumes) {
-    bool all = fits(shape, static_cast<const HostTables&>(field), volumes);
-    for_each_network_array([&](const auto& spec) { all = all && spec.get(field).size() == spec.length; });
-    return all;
-}
-
-std::size_t network_bytes() { return 4 * kNetworkWeights * sizeof(float) + kNetworkCounts * sizeof(std::uint32_t); }
-
-std::size_t field_bytes(const HostNeural& field) {
-    std::size_t bytes = field_bytes(static_cast<const HostTables&>(field));
+void reset_network(HostNeural& field) {
     for_each_network_array(
-        [&](const auto& spec) { bytes += spec.get(field).size() * sizeof *spec.get(field).data(); });
-    return bytes;
+        [&](const auto& spec) { reset_values(spec, {}, spec.get(field), 0, spec.get(field).size()); });
 }
 
-NetworkStatus status_of(const HostNeural& field) {
+std::string NeuralModel::text(const FieldShape&, const HostNeural& field) {
+    return fmt::format("{} lobes at each vertex by a network of {} steps", kVertexLobes, network(field).steps);
+}
+
+NetworkStatus NeuralModel::network(const HostNeural& field) {
     if (field.counts.size() != kNetworkCounts) return {};  // of a method without a field
     return {.steps = field.counts[kNetworkSteps], .is_lost = field.counts[kNetworkIsLost] != 0};
 }
 
-std::optional<std::string> damage_of(const HostNeural& field) {
-    if (field.counts[kNetworkVersion] != kNetworkLayoutVersion)
-        return "layout " + std::to_string(field.counts[kNetworkVersion]);
-    if (field.counts[kNetworkIsLost] > 1) return "mark of loss " + std::to_string(field.counts[kNetworkIsLost]);
+std::optional<FieldDamage> NeuralModel::damage(const HostNeural& field) {
+    if (auto damage = TableModel::damage(field)) return damage;
+    const auto wrong = [](const char* what, std::uint32_t got) {
+        return FieldDamage{"network", fmt::format("weights of layout {}", kNetworkLayoutVersion),
+                           fmt::format("{} {}", what, got)};
+    };
+    if (field.counts[kNetworkVersion] != kNetworkLayoutVersion) return wrong("layout", field.counts[kNetworkVersion]);
+    if (field.counts[kNetworkIsLost] > 1) return wrong("mark of loss", field.counts[kNetworkIsLost]);
     return std::nullopt;
 }
 
-HostNeural split_field(const FieldShape& shape, HostNeural field, std::span<const std::uint32_t> parents) {
-    static_cast<HostTables&>(field) = split_field(shape, static_cast<HostTables&&>(field), parents);
+HostNeural NeuralModel::split(const FieldShape& shape, HostNeural field, std::span<const std::uint32_t> parents) {
+    static_cast<HostTables&>(field) = TableModel::split(shape, static_cast<HostTables&&>(field), parents);
     return field;
 }
 
@@ -85,6 +71,27 @@ float NeuralSummary::entropy(std::uint32_t volume) const {
     const VertexMixture mixture = mixture_of_volume(mixtures, volume);
     return entropy_of_cells(mixtures.cells,
                             [&](Vec3f local) { return relative_density(mixtures, volume, mixture, local); });
+}
+
+NeuralInspector NeuralModel::inspector(const NeuralField& field) {
+    NeuralInspector inspector;
+    inspector.field = inspector.mixtures = field;
+    return inspector;
+}
+
+const VertexMixture& NeuralInspector::mixture_of(std::uint32_t volume) const {
+    if (mixture_volume_ != volume) mixture_ = mixture_of_volume(mixtures, volume);
+    mixture_volume_ = volume;
+    return mixture_;
+}
+
+float NeuralInspector::probability(std::uint32_t volume, int cell) const {
+    const float mean = mean_of_cell(mixtures.cells, cell, [&](Vec2f square) { return density(volume, square); });
+    return mean / static_cast<float>(mixtures.cells.count());
+}
+
+float NeuralInspector::density(std::uint32_t volume, Vec2f square) const {
+    return relative_density(mixtures, volume, mixture_of(volume), square_to_cosine_hemisphere(square));
 }
 
 }  // namespace pl

@@ -88,7 +88,12 @@ RefinedPlacement refine_placement(const SiteSource& source, const PlacementView&
 }
 
 std::vector<std::uint32_t> volumes_to_split(const AnyFieldView& field, std::size_t most, int threads) {
-    return visit_field(field, [&](const auto& view) { return volumes_to_split(view, most, threads); });
+    return visit_field(field, [&](const auto& view) -> std::vector<std::uint32_t> {
+        if constexpr (std::derived_from<std::remove_cvref_t<decltype(view)>, TableField>)
+            return volumes_to_split(static_cast<const TableField&>(view), most, threads);
+        else
+            return {};
+    });
 }
 
 }  // namespace pl

@@ -31,7 +31,7 @@ struct RefinedPlacement {
 RefinedPlacement refine_placement(const SiteSource& source, const PlacementView& placement,
                                   std::span<const std::uint32_t> split);
 
-/// Up to `most` volumes to split, by the criterion of the field's representation.
+/// Up to `most` volumes to split, by the tables of the field. None without tables: other representations are refined by their updates.
 std::vector<std::uint32_t> volumes_to_split(const AnyFieldView& field, std::size_t most, int threads);
 
 }  // namespace pl

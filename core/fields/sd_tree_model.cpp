@@ -4,6 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include <fmt/format.h>
+
 namespace pl {
 namespace {
 
@@ -81,91 +83,7 @@ std::optional<std::string> damage_of_quadtree(const HostSdTree& tree, std::uint3
     return std::nullopt;
 }
 
-}  // namespace
-
-HostSdTree make_sd_tree(const FieldShape& shape, std::size_t volumes) {
-    HostSdTree tree;
-    tree.first_node.resize(1);
-    tree.energy.resize(4);
-    for_each_sd_tree_array([&](const auto& spec) {
-        auto& values = spec.get(tree);
-        using Value = std::remove_cvref_t<decltype(values[0])>;
-        values.assign(extent_of(spec.extent, shape, tree, volumes), static_cast<Value>(spec.initial));
-    });
-    tree.spatial = {SpatialNode::kIsLeaf};
-    return tree;
-}
-
-std::size_t extent_of(SdTreeExtent extent, const FieldShape& shape, const HostSdTree& tree, std::size_t volumes) {
-    switch (extent) {
-    case SdTreeExtent::SpatialNode: return 2 * tree.first_node.size() - 1;
-    case SdTreeExtent::Leaf: return tree.first_node.size();
-    case SdTreeExtent::Slot: return tree.energy.size();
-    case SdTreeExtent::Volume: return volumes;
-    case SdTreeExtent::LightCluster: return volumes * shape.light_clusters;
-    }
-    return 0;
-}
-
-bool fits(const FieldShape& shape, const HostSdTree& tree, std::size_t volumes) {
-    const std::size_t leaves = tree.first_node.size();
-    const std::size_t nodes = tree.energy.size() / 4;
-    bool fits = leaves > 0 && nodes >= leaves && nodes <= kMostQuadNodes && tree.energy.size() == 4 * nodes;
-    for_each_sd_tree_array([&](const auto& spec) {
-        fits = fits && spec.get(tree).size() == extent_of(spec.extent, shape, tree, volumes);
-    });
-    return fits;
-}
-
-std::size_t field_bytes(const HostSdTree& tree) {
-    std::size_t bytes = 0;
-    for_each_sd_tree_array([&](const auto& spec) { bytes += spec.get(tree).size() * sizeof spec.get(tree)[0]; });
-    return bytes;
-}
-
-std::size_t sd_tree_bytes_per_node() {
-    std::size_t bytes = 0;
-    // A quadtree has a node at least, and there are fewer than twice as many nodes of space as leaves.
-    for_each_sd_tree_array([&](const auto& spec) {
-        using Value = std::remove_cvref_t<decltype(spec.get(std::declval<HostSdTree&>())[0])>;
-        if (spec.extent == SdTreeExtent::Slot) bytes += 4 * sizeof(Value);
-        if (spec.extent == SdTreeExtent::Leaf) bytes += sizeof(Value);
-        if (spec.extent == SdTreeExtent::SpatialNode) bytes += 2 * sizeof(Value);
-    });
-    return bytes;
-}
-
-std::size_t sd_tree_bytes_per_volume(std::size_t light_clusters) {
-    std::size_t bytes = 0;
-    for_each_sd_tree_array([&](const auto& spec) {
-        using Value = std::remove_cvref_t<decltype(spec.get(std::declval<HostSdTree&>())[0])>;
-        if (spec.extent == SdTreeExtent::Volume) bytes += sizeof(Value);
-        if (spec.extent == SdTreeExtent::LightCluster) bytes += light_clusters * sizeof(Value);
-    });
-    return bytes;
-}
-
-HostSdTree split_field(const FieldShape& shape, HostSdTree tree, std::span<const std::uint32_t> parents) {
-    const std::size_t volumes = volume_count(tree);
-    for_each_sd_tree_array([&](const auto& spec) {
-        if (spec.extent != SdTreeExtent::Volume && spec.extent != SdTreeExtent::LightCluster) return;
-        auto& values = spec.get(tree);
-        const std::size_t length = spec.extent == SdTreeExtent::Volume ? 1 : shape.light_clusters;
-        values.resize((volumes + parents.size()) * length);
-        for (std::size_t i = 0; i < parents.size(); ++i)
-            for (std::size_t k = 0; k < length; ++k) {
-                auto& parent = values[parents[i] * length + k];
-                auto& child = values[(volumes + i) * length + k];
-                if (spec.on_split == OnSplit::Copy) child = parent;
-                if (spec.on_split != OnSplit::Divide) continue;
-                child = parent / 2;
-                parent -= child;
-            }
-    });
-    return tree;
-}
-
-std::optional<std::string> damage_of(const HostSdTree& tree) {
+std::optional<std::string> damage_of_trees(const HostSdTree& tree) {
     if (const auto damage = damage_of_space(tree)) return damage;
     const auto nodes = static_cast<std::uint32_t>(tree.energy.size() / 4);
     for (std::size_t leaf = 0; leaf < tree.first_node.size(); ++leaf) {
@@ -177,7 +95,48 @@ std::optional<std::string> damage_of(const HostSdTree& tree) {
     return std::nullopt;
 }
 
-float SdTreeVolumeSummary::unvisited_share(std::uint32_t volume) const {
+}  // namespace
+
+std::string SdTreeModel::text(const FieldShape&, const HostSdTree& tree) {
+    return fmt::format("SD-tree of {} leaves and {} nodes", tree.first_node.size(), tree.energy.size() / 4);
+}
+
+void SdTreeModel::forget(const FieldShape& shape, const HostVolumes& volumes, HostSdTree& tree, std::size_t volume) {
+    reset_volume(shape, tree, volume);
+    const SdTreeField field = view(shape, volumes, tree);
+    const std::size_t leaf = SdTreeInspector{field}.leaf_of(static_cast<std::uint32_t>(volume));
+    const std::size_t first = 4 * std::size_t{tree.first_node[leaf]};
+    const std::size_t end =
+        leaf + 1 < tree.first_node.size() ? 4 * std::size_t{tree.first_node[leaf + 1]} : tree.energy.size();
+    std::fill(tree.energy.begin() + static_cast<std::ptrdiff_t>(first),
+              tree.energy.begin() + static_cast<std::ptrdiff_t>(end), 0.0f);
+    std::fill(tree.pending_energy.begin() + static_cast<std::ptrdiff_t>(first),
+              tree.pending_energy.begin() + static_cast<std::ptrdiff_t>(end), 0);
+    tree.visits[leaf] = tree.pending_count[leaf] = 0;
+    for_each_spec(mixture_arrays(sd_tree_arrays::kOfLeaf),
+                  [&](const auto& spec) { reset_values(spec, shape, spec.get(tree), leaf, 1); });
+}
+
+std::size_t SdTreeModel::bytes_of_node() {
+    // A quadtree has a node at least, and there are fewer than twice as many nodes of space as leaves.
+    HostSdTree node;
+    node.first_node.resize(1);
+    node.energy.resize(4);
+    std::size_t bytes = 0;
+    for_each_array_of<HostSdTree>([&](const auto& spec) {
+        using Spec = std::remove_cvref_t<decltype(spec)>;
+        if constexpr (!kIsByVolume<Spec>) bytes += spec.owner.count(node) * sizeof spec.get(node)[0];
+    });
+    return bytes + sizeof node.spatial[0];
+}
+
+std::optional<FieldDamage> SdTreeModel::damage(const HostSdTree& tree) {
+    const std::optional<std::string> found = damage_of_trees(tree);
+    if (!found) return std::nullopt;
+    return FieldDamage{"SD-tree", "each node and each leaf once, children behind their parents", *found};
+}
+
+float SdTreeInspector::unvisited_share(std::uint32_t volume) const {
     const std::uint32_t leaf = leaf_of(volume);
     float dark = 0.0f;
     for_each_slot(field, leaf, [&](const QuadSlot& slot) {
@@ -186,7 +145,7 @@ float SdTreeVolumeSummary::unvisited_share(std::uint32_t volume) const {
     return min_of(dark, 1.0f);
 }
 
-float SdTreeVolumeSummary::entropy(std::uint32_t volume) const {
+float SdTreeInspector::entropy(std::uint32_t volume) const {
     const std::uint32_t leaf = leaf_of(volume);
     float bits = std::log2(static_cast<float>(field.cells.count()));
     for_each_slot(field, leaf, [&](const QuadSlot& slot) {
@@ -194,6 +153,30 @@ float SdTreeVolumeSummary::entropy(std::uint32_t volume) const {
         if (relative > 0.0f) bits -= slot.side() * slot.side() * relative * std::log2(relative);
     });
     return max_of(bits, 0.0f);
+}
+
+float SdTreeInspector::radiance(std::uint32_t volume, int cell) const {
+    const std::uint32_t leaf = leaf_of(volume);
+    return mean_of_cell(field.cells, cell, [&](Vec2f square) {
+        const Vec3f wi = field.frame(static_cast<std::int32_t>(volume)).to_world(square_to_cosine_hemisphere(square));
+        return field.radiance_of(field.slot_at(leaf, sphere_to_square(wi)));
+    });
+}
+
+float SdTreeInspector::probability(std::uint32_t volume, int cell) const {
+    const float mean = mean_of_cell(field.cells, cell, [&](Vec2f square) { return density(volume, square); });
+    return mean / static_cast<float>(field.cells.count());
+}
+
+std::uint32_t SdTreeInspector::samples(std::uint32_t volume, int cell) const {
+    return spread_samples(field.samples[volume], probability(volume, cell));
+}
+
+float SdTreeInspector::density(std::uint32_t volume, Vec2f square) const {
+    const Vec3f local = square_to_cosine_hemisphere(square);
+    return relative_to_cosine(
+        field.direction_pdf_sa(leaf_of(volume), field.frame(static_cast<std::int32_t>(volume)).to_world(local)),
+        local);
 }
 
 }  // namespace pl

@@ -1,10 +1,7 @@
-// The SD-tree as a model of a guiding field on the host: the one description of its arrays, and all code derived from it.
+// The SD-tree as a representation on the host.
 #pragma once
 
-#include <optional>
-#include <string>
-
-#include "core/fields/table_model.h"
+#include "core/fields/representation.h"
 #include "core/kernel/guiding/sd_tree_field.h"
 
 namespace pl {
@@ -13,135 +10,118 @@ template <template <class> class Array>
 using SdTreeStorage = SdTreeArrays<Array, Array>;
 using HostSdTree = SdTreeStorage<LargeArray>;
 
-/// The owners of an array's values.
-enum class SdTreeExtent { SpatialNode, Leaf, Slot, Volume, LightCluster };
-
-/// The part of an array: the shape of the trees, or values of their nodes and of volumes.
-enum class SdTreePart { Structure, Values };
-
-/// Description of one array of SdTreeArrays.
-template <class Get>
-struct SdTreeSpec {
-    const char* name;    ///< plural, in messages
-    const char* single;  ///< of one value, in messages
-    SdTreeExtent extent;
-    SdTreePart part;
-    OnSplit on_split;  ///< of a radiance volume
-    ValidRange valid;
-    float initial;  ///< all values of a field without training samples
-    Get get;        ///< the array of any SdTreeArrays
-};
-template <class Get>
-SdTreeSpec(const char*, const char*, SdTreeExtent, SdTreePart, OnSplit, ValidRange, float, Get) -> SdTreeSpec<Get>;
-
 namespace sd_tree_arrays {
 
-using enum SdTreeExtent;
-using enum SdTreePart;
+// Lengths that go together: a leaf at least, a node of its quadtree for each leaf at least, and four quadrants to a node.
+inline std::size_t leaves_of(const HostSdTree& tree) { return std::max<std::size_t>(tree.first_node.size(), 1); }
+inline constexpr ArrayOwner kOfLeaf{"leaf", leaves_of};
+inline constexpr ArrayOwner kOfPlace{"place", [](const HostSdTree& tree) { return 2 * leaves_of(tree) - 1; }};
+inline constexpr ArrayOwner kOfSlot{
+    "quadrant", [](const HostSdTree& tree) {
+        return 4 * std::max(std::min<std::size_t>(tree.energy.size() / 4, kMostQuadNodes), leaves_of(tree));
+    }};
+
+inline constexpr auto kLeafOfAll = [](const FieldShape&, std::size_t) { return SpatialNode::kIsLeaf; };
+
 using enum OnSplit;
 using enum ValidRange;
 
-/// The arrays in the order of files.
 // clang-format off
-inline constexpr SpecList kAll{
-    SdTreeSpec{"nodes of space", "node of space", SpatialNode, Structure, Copy, Any, 0.0f, [](auto& t) -> auto& { return t.spatial; }},
-    SdTreeSpec{"roots of quadtrees", "root of a quadtree", Leaf, Structure, Copy, Any, 0.0f, [](auto& t) -> auto& { return t.first_node; }},
-    SdTreeSpec{"energies", "energy", Slot, Values, Copy, Amount, 0.0f, [](auto& t) -> auto& { return t.energy; }},
-    SdTreeSpec{"children", "child", Slot, Structure, Copy, Any, 0.0f, [](auto& t) -> auto& { return t.child; }},
-    SdTreeSpec{"sums of energies", "sum of energies", Slot, Values, Clear, NotNegative, 0.0f, [](auto& t) -> auto& { return t.pending_energy; }},
-    SdTreeSpec{"visits", "visits", Leaf, Values, Copy, Any, 0.0f, [](auto& t) -> auto& { return t.visits; }},
-    SdTreeSpec{"counts", "count", Leaf, Values, Clear, Any, 0.0f, [](auto& t) -> auto& { return t.pending_count; }},
-    SdTreeSpec{"slopes of the mixture", "slope of the mixture", Leaf, Values, Clear, Any, 0.0f, [](auto& t) -> auto& { return t.pending_slope; }},
-    SdTreeSpec{"curvatures of the mixture", "curvature of the mixture", Leaf, Values, Clear, NotNegative, 0.0f, [](auto& t) -> auto& { return t.pending_curvature; }},
-    SdTreeSpec{"targets of the mixture", "target of the mixture", Leaf, Values, Copy, Finite, 0.0f, [](auto& t) -> auto& { return t.mixture_target; }},
-    SdTreeSpec{"weights of the mixture", "weight of the mixture", Leaf, Values, Copy, Amount, 0.0f, [](auto& t) -> auto& { return t.mixture_weight; }},
-    SdTreeSpec{"BSDF shares", "BSDF share", Leaf, Values, Copy, BsdfFraction, kInitialBsdfFraction, [](auto& t) -> auto& { return t.bsdf_fraction; }},
-    SdTreeSpec{"mean radiance", "mean radiance", Volume, Values, Copy, Amount, 0.0f, [](auto& t) -> auto& { return t.mean_radiance; }},
-    SdTreeSpec{"samples", "samples", Volume, Values, Divide, Any, 0.0f, [](auto& t) -> auto& { return t.samples; }},
-    SdTreeSpec{"sums of values", "sum of values", Volume, Values, Clear, NotNegative, 0.0f, [](auto& t) -> auto& { return t.pending_value; }},
-    SdTreeSpec{"sums of weights", "sum of weights", Volume, Values, Clear, NotNegative, 0.0f, [](auto& t) -> auto& { return t.pending_weight; }},
-    SdTreeSpec{"new samples", "new samples", Volume, Values, Clear, Any, 0.0f, [](auto& t) -> auto& { return t.pending_samples; }},
-    SdTreeSpec{"changes", "change", Volume, Values, Copy, Amount, 0.0f, [](auto& t) -> auto& { return t.change; }},
-    SdTreeSpec{"sums of direct light", "sum of direct light", Volume, Values, Clear, NotNegative, 0.0f, [](auto& t) -> auto& { return t.pending_direct; }},
-    SdTreeSpec{"counts of light samples", "count of light samples", Volume, Values, Clear, Any, 0.0f, [](auto& t) -> auto& { return t.pending_direct_count; }},
-    SdTreeSpec{"direct light", "direct light", Volume, Values, Copy, Amount, 0.0f, [](auto& t) -> auto& { return t.direct; }},
-    SdTreeSpec{"light samples", "light samples", Volume, Values, Divide, Any, 0.0f, [](auto& t) -> auto& { return t.direct_count; }},
-    SdTreeSpec{"sums of light by clusters", "sum of light by a cluster", LightCluster, Values, Clear, NotNegative, 0.0f, [](auto& t) -> auto& { return t.pending_cluster; }},
-    SdTreeSpec{"light by clusters", "light by a cluster", LightCluster, Values, Copy, Amount, 0.0f, [](auto& t) -> auto& { return t.cluster_light; }},
-    SdTreeSpec{"choices of lights", "choice of lights", LightCluster, Values, Copy, Choice, 0.0f, [](auto& t) -> auto& { return t.light_cdf; }},
-};
+/// A tree of one leaf for all of space, with one node: uniform.
+inline constexpr auto kAll = SpecList{
+    ArraySpec{"nodes of space", "node of space", kOfPlace, Copy, Any, kLeafOfAll, [](auto& t) -> auto& { return t.spatial; }},
+    ArraySpec{"roots of quadtrees", "root of a quadtree", kOfLeaf, Copy, Any, kZero, [](auto& t) -> auto& { return t.first_node; }},
+    ArraySpec{"energies", "energy", kOfSlot, Copy, Amount, kZero, [](auto& t) -> auto& { return t.energy; }},
+    ArraySpec{"children", "child", kOfSlot, Copy, Any, kZero, [](auto& t) -> auto& { return t.child; }},
+    ArraySpec{"sums of energies", "sum of energies", kOfSlot, Clear, NotNegative, kZero, [](auto& t) -> auto& { return t.pending_energy; }},
+    ArraySpec{"visits", "visits", kOfLeaf, Copy, Any, kZero, [](auto& t) -> auto& { return t.visits; }},
+    ArraySpec{"counts", "count", kOfLeaf, Clear, Any, kZero, [](auto& t) -> auto& { return t.pending_count; }},
+} + mixture_arrays(kOfLeaf) + kIrradianceArrays + kLightArrays;
 // clang-format on
 
 }  // namespace sd_tree_arrays
 
-/// Calls fn(spec) for every array.
-template <class Fn>
-constexpr void for_each_sd_tree_array(Fn&& fn) {
-    for_each_spec(sd_tree_arrays::kAll, fn);
-}
-
-/// Calls fn(array of `from`, array of `to`) for every array; `to` is const if fn only reads it.
-template <template <class> class From, class To, class Fn>
-void zip(const SdTreeArrays<From, From>& from, To& to, Fn&& fn) {
-    for_each_sd_tree_array([&](const auto& spec) { fn(spec.get(from), spec.get(to)); });
-}
-
-/// One leaf for all of space, with one node: uniform.
-HostSdTree make_sd_tree(const FieldShape& shape, std::size_t volumes);
-
-/// Number of values of an array of this tree, by the lengths of the others.
-std::size_t extent_of(SdTreeExtent extent, const FieldShape& shape, const HostSdTree& tree, std::size_t volumes);
-/// Whether all arrays have the lengths that follow from the shape, the number of volumes, and each other.
-bool fits(const FieldShape& shape, const HostSdTree& tree, std::size_t volumes);
-std::size_t field_bytes(const HostSdTree& tree);
-inline std::size_t volume_count(const HostSdTree& tree) { return tree.mean_radiance.size(); }
-
-/// Bytes of an SD-tree besides its volumes, for each node of its quadtrees, at most.
-std::size_t sd_tree_bytes_per_node();
-/// Bytes of an SD-tree for each volume.
-std::size_t sd_tree_bytes_per_volume(std::size_t light_clusters);
-
-/// New volumes begin with the irradiance of their parents; the trees stay.
-HostSdTree split_field(const FieldShape& shape, HostSdTree tree, std::span<const std::uint32_t> parents);
-
-/// The damage of an SD-tree whose arrays fit: nodes out of order, unreachable, shared or too deep, or sums that are not those of
-/// children. Empty if there is none: then every lookup ends at a leaf and at a slot that exist, and densities are those of samples.
-std::optional<std::string> damage_of(const HostSdTree& tree);
-
-template <template <class> class Array, template <class> class TreeArray>
-SdTreeField field_view(const FieldShape& shape, const VolumeStorage<Array>& volumes, SdTreeStorage<TreeArray>& tree) {
-    SdTreeField field;
-    static_cast<PlacementView&>(field) = placement_view(volumes, shape.extent);
-    field.cells = shape.cells;
-    field.light_clusters = shape.light_clusters;
-    field.radiance_unit = shape.radiance_unit;
-    field.corner = shape.corner;
-    field.inverse_edge = 1.0f / shape.edge;
-    for_each_sd_tree_array([&](const auto& spec) { spec.get(field) = view_of(spec.get(tree)); });
-    return field;
-}
-
-/// VolumeSummary of an SD-tree: of the leaf at the site of a volume, and the volume's irradiance.
-struct SdTreeVolumeSummary {
-    SdTreeField field;
-
+/// An SD-tree, by the leaf at the site of a volume and the volume's irradiance; single directions by the cells that tables have.
+struct SdTreeInspector : IrradianceSummary<SdTreeField> {
     std::uint32_t leaf_of(std::uint32_t volume) const {
         return field.leaf_at(field.in_cube(field.sites[volume].position)).leaf;
     }
-    float samples(std::uint32_t volume) const { return static_cast<float>(field.samples[volume]); }
+    using IrradianceSummary<SdTreeField>::samples;
     /// Share of the sphere without light, as far as the leaf knows.
     float unvisited_share(std::uint32_t volume) const;
     /// That of equal cells of the sphere, as many as tables have: log2(cells) for a uniform tree, at least 0.
     float entropy(std::uint32_t volume) const;
-    float mean_radiance(std::uint32_t volume) const { return field.mean_radiance[volume] + field.direct[volume]; }
-    float change(std::uint32_t volume) const { return field.change[volume]; }
     float bsdf_fraction(std::uint32_t volume) const { return field.bsdf_fraction[leaf_of(volume)]; }
-};
-static_assert(VolumeSummary<SdTreeVolumeSummary>);
 
+    float radiance(std::uint32_t volume, int cell) const;
+    float probability(std::uint32_t volume, int cell) const;
+    /// Those of the volume, spread over the cells by their probability.
+    std::uint32_t samples(std::uint32_t volume, int cell) const;
+    float density(std::uint32_t volume, Vec2f square) const;
+};
+
+// Of the update.   [Mueller et al. 2017, section 3]
+
+/// Share of a leaf's energy above which a quadrant is divided.   [Mueller et al. 2017: rho = 0.01]
+inline constexpr float kDividedShare = 0.01f;
+
+/// Training samples of a leaf above which it is split: kSplitSamples sqrt(n / kSplitReference), n those of all leaves, and at least
+/// kFewestSplitSamples. In the paper c sqrt(2^k) in iteration k, whose samples have doubled so often; the reference is the
+/// number of a first iteration, four paths for each of a million pixels. c is 12 000 in 2017 and 4000 in 2019.
+inline constexpr double kSplitSamples = 4000.0;
+inline constexpr double kSplitReference = 16777216.0;
+inline constexpr double kFewestSplitSamples = 2000.0;
+
+/// Training samples that a quadrant is to have, on the mean, before it is divided: fewer say nothing of its quarters. Leaves of the
+/// first updates are small; the paper's have thousands. Measured from 8 to 100, see docs/notebook/2026-11-25-sd-tree.md.
+inline constexpr float kFewestInQuadrant = 60.0f;
+
+struct SdTreeModel {
+    using Field = SdTreeField;
+    template <template <class> class Array>
+    using Storage = SdTreeStorage<Array>;
+
+    static constexpr ChoiceInfo<Representation> kInfo{
+        .value = Representation::SdTree,
+        .name = "sd-tree",
+        .label = "SD-tree",
+        .sentence = "quadtrees over directions at the leaves of a tree over space, on the CPU alone"};
+    static constexpr double kGuidance = 3.0;
+    static constexpr const auto& kArrays = sd_tree_arrays::kAll;
+
+    template <template <class> class Array, template <class> class TreeArray>
+    static SdTreeField view(const FieldShape& shape, const VolumeStorage<Array>& volumes,
+                            SdTreeStorage<TreeArray>& tree) {
+        SdTreeField field;
+        set_common(shape, placement_view(volumes, shape.extent), field);
+        field.corner = shape.corner;
+        field.inverse_edge = 1.0f / shape.edge;
+        set_arrays(kArrays, field, tree);
+        return field;
+    }
+    template <template <class> class Array>
+    static SdTreeInspector summary(const FieldShape& shape, const HostVolumes& volumes, SdTreeStorage<Array>& tree) {
+        return {view(shape, volumes, tree)};
+    }
+    static SdTreeInspector inspector(const SdTreeField& field) { return {field}; }
+    /// Its leaves and nodes.
+    static std::string text(const FieldShape&, const HostSdTree& tree);
+
+    /// Absorbs all pending sums, splits leaves by their number of training samples, and divides or joins quadrants by their energy. A
+    /// tree that would have more than shape.most_nodes nodes gets fewer leaves, and quadrants by a larger share.
+    static void update(const FieldShape& shape, const HostVolumes&, HostSdTree& tree, int threads);
+    /// The leaf at the volume forgets its directions with it. The shape of the quadtree stays: the next update joins its quadrants.
+    static void forget(const FieldShape& shape, const HostVolumes& volumes, HostSdTree& tree, std::size_t volume);
+    /// Nodes out of order, unreachable, shared or too deep, or sums that are not those of children. Without damage every lookup ends at
+    /// a leaf and at a slot that exist, and densities are those of samples.
+    static std::optional<FieldDamage> damage(const HostSdTree& tree);
+
+    static constexpr std::uint32_t kMostNodes = kMostQuadNodes;
+    /// Of a quadtree, at most.
+    static std::size_t bytes_of_node();
+};
 template <template <class> class Array>
-SdTreeVolumeSummary summary_of(const FieldShape& shape, const HostVolumes& volumes, SdTreeStorage<Array>& tree) {
-    return {field_view(shape, volumes, tree)};
-}
+SdTreeModel model_of(const SdTreeStorage<Array>&);
+static_assert(FieldModel<SdTreeModel>);
 
 }  // namespace pl

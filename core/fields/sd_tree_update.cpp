@@ -1,4 +1,6 @@
-#include "core/fields/sd_tree_update.h"
+// The update of an SD-tree: pending sums become learned radiance, and both kinds of trees are built anew from it.
+// [Mueller et al. 2017, section 3]
+#include "core/fields/sd_tree_model.h"
 
 #include <algorithm>
 #include <cmath>
@@ -204,20 +206,18 @@ void rebuild(HostSdTree& tree, const std::vector<NewLeaf>& leaves, const std::ve
 
 }  // namespace
 
-void update_sd_tree(const FieldShape& shape, HostSdTree& tree, int threads) {
-    const TableUpdateView lights = light_view(shape, tree);
+void SdTreeModel::update(const FieldShape& shape, const HostVolumes&, HostSdTree& tree, int threads) {
+    const VolumeUpdateView view = volume_update_view(shape, tree);
     for_chunks(static_cast<std::uint32_t>(volume_count(tree)), kVolumeChunk, threads, [&](IndexRange range) {
-        for (std::uint32_t volume = range.begin; volume < range.end; ++volume)
-            absorb_volume(shape, tree, lights, volume);
+        for (std::uint32_t volume = range.begin; volume < range.end; ++volume) absorb_volume(view, volume);
     });
-    const TableUpdateView mixture = mixture_view(tree);
     const auto old_leaves = static_cast<std::uint32_t>(tree.first_node.size());
     const auto old_nodes = static_cast<std::uint32_t>(tree.energy.size() / 4);
     for_chunks(old_leaves, kLeafChunk, threads, [&](IndexRange range) {
         for (std::uint32_t leaf = range.begin; leaf < range.end; ++leaf) {
             const std::uint32_t end = leaf + 1 < old_leaves ? tree.first_node[leaf + 1] : old_nodes;
             absorb_leaf(shape, tree, leaf, tree.first_node[leaf], end);
-            move_mixture(mixture, leaf);
+            move_mixture(view, leaf);
         }
     });
     std::vector<NewLeaf> leaves;

@@ -8,9 +8,9 @@
 
 #include "core/base/error.h"
 #include "core/base/square_number.h"
+#include "core/fields/field_kernels.h"
 #include "core/io/field_layout.h"
 #include "core/kernel/base/math.h"
-#include "core/kernel/guiding/network_layout.h"
 
 namespace pl {
 namespace {
@@ -37,7 +37,7 @@ public:
         progress();
         placement();
         tree();
-        std::visit([this](const auto& arrays) { arrays_of(arrays); }, field_.field);
+        arrays();
     }
 
 private:
@@ -116,38 +116,13 @@ private:
                 field_.refinement.added);
         require(volumes_.kd_nodes.size() <= volumes, "search tree", fmt::format("at most {} values", volumes),
                 volumes_.kd_nodes.size());
-        std::visit([&](const auto& arrays) { lengths_of(arrays, size); }, field_.field);
-    }
-
-    template <class Size>
-    void lengths_of(const HostTables& tables, const Size& size) const {
-        const std::size_t volumes = volumes_.normals.size();
-        for_each_table_array([&](const auto& spec) {
-            size(spec.name, spec.get(tables), extent_of(spec.extent, field_.shape, volumes));
-        });
-    }
-
-    template <class Size>
-    void lengths_of(const HostNeural& field, const Size& size) const {
-        lengths_of(static_cast<const HostTables&>(field), size);
-        for_each_network_array([&](const auto& spec) { size(spec.name, spec.get(field), spec.length); });
-    }
-
-    template <class Size>
-    void lengths_of(const HostLobes& lobes, const Size& size) const {
-        const std::size_t volumes = volumes_.normals.size();
-        for_each_lobe_array([&](const auto& spec) {
-            size(spec.name, spec.get(lobes), extent_of(spec.extent, field_.shape, volumes));
-        });
-    }
-
-    template <class Size>
-    void lengths_of(const HostSdTree& tree, const Size& size) const {
-        for_each_sd_tree_array([&](const auto& spec) {
-            size(spec.name, spec.get(tree), extent_of(spec.extent, field_.shape, tree, volumes_.normals.size()));
-        });
-        require(fits(field_.shape, tree, volumes_.normals.size()), "quadtrees",
-                "a node for each leaf, of four quadrants", tree.energy.size());
+        std::visit(
+            [&](const auto& arrays) {
+                for_each_array(arrays, [&](const auto& spec, const auto& array) {
+                    size(spec.name, array, length_of(spec, field_.shape, arrays, volumes));
+                });
+            },
+            field_.field);
     }
 
     void progress() const {
@@ -191,68 +166,22 @@ private:
     }
 
     /// The values of each array by its valid range, and those that are valid only together.
-    void arrays_of(const HostTables& tables) const {
-        for_each_table_array([&](const auto& spec) { values_of(spec, spec.get(tables)); });
-        pending_targets(tables);
-        pending_distances(tables);
-    }
-    void arrays_of(const HostSdTree& tree) const {
-        for_each_sd_tree_array([&](const auto& spec) { values_of(spec, spec.get(tree)); });
-        if (const std::optional<std::string> damage = damage_of(tree))
-            fail("SD-tree", "each node and each leaf once, children behind their parents", *damage);
-    }
-
-    void arrays_of(const HostLobes& lobes) const {
-        for_each_lobe_array([&](const auto& spec) { values_of(spec, spec.get(lobes)); });
-        if (const std::optional<std::string> damage = damage_of(lobes))
-            fail("lobes", fmt::format("mixtures of 1 to {} lobes", kMostLobes), *damage);
-    }
-
-    void arrays_of(const HostNeural& field) const {
-        arrays_of(static_cast<const HostTables&>(field));
-        for_each_network_array([&](const auto& spec) { values_of(spec, spec.get(field)); });
-        if (const std::optional<std::string> damage = damage_of(field))
-            fail("network", fmt::format("weights of layout {}", kNetworkLayoutVersion), *damage);
-    }
-
-    static const char* word_of(ArrayExtent extent) { return extent == ArrayExtent::Cell ? "cell" : "volume"; }
-    static const char* word_of(SdTreeExtent extent) {
-        switch (extent) {
-        case SdTreeExtent::SpatialNode: return "place";
-        case SdTreeExtent::Leaf: return "leaf";
-        case SdTreeExtent::Slot: return "quadrant";
-        case SdTreeExtent::Volume:
-        case SdTreeExtent::LightCluster: break;
-        }
-        return "volume";
-    }
-
-    static const char* word_of(LobeExtent extent) {
-        switch (extent) {
-        case LobeExtent::Lobe: return "lobe";
-        case LobeExtent::LobeAxis:
-        case LobeExtent::LobeStatistic: return "place";
-        case LobeExtent::Volume:
-        case LobeExtent::LightCluster: break;
-        }
-        return "volume";
-    }
-
-    template <class Spec>
-    static const char* word_of(const Spec& spec) {
-        if constexpr (requires { spec.extent; })
-            return word_of(spec.extent);
-        else
-            return "place";
+    void arrays() const {
+        std::visit(
+            [&](const auto& arrays) {
+                for_each_array(arrays, [&](const auto& spec, const auto& array) { values_of(spec, array); });
+                if (const std::optional<FieldDamage> damage = damage_of(arrays))
+                    fail(damage->what, damage->expected, damage->got);
+            },
+            field_.field);
     }
 
     template <class Spec, class Array>
     void values_of(const Spec& spec, const Array& values) const {
-        const char* where = word_of(spec);
         const auto all = [&](std::string_view expected, const auto& is_valid) {
             for (std::size_t i = 0; i < values.size(); ++i)
                 if (!is_valid(values[i]))
-                    fail(fmt::format("{} of {} {}", spec.single, where, i), expected, values[i]);
+                    fail(fmt::format("{} of {} {}", spec.single, spec.owner.name, i), expected, values[i]);
         };
         switch (spec.valid) {
         case ValidRange::Any: break;
@@ -267,24 +196,6 @@ private:
             break;
         case ValidRange::Cumulative: distributions(spec.name, values, cells_to_a_side(), false); break;
         case ValidRange::Choice: distributions(spec.name, values, field_.shape.light_clusters, true); break;
-        }
-    }
-
-    void pending_targets(const HostTables& tables) const {
-        constexpr double kMostPerSample = static_cast<double>(kMaxRecordedUnits) * kStepsPerUnit;
-        for (std::size_t i = 0; i < tables.pending_sum.size(); ++i) {
-            const double most = tables.pending_count[i] * kMostPerSample;
-            if (tables.pending_sum[i] < 0 || static_cast<double>(tables.pending_sum[i]) > most)
-                fail(fmt::format("sum of cell {}", i), fmt::format("0 to {}", most), tables.pending_sum[i]);
-        }
-    }
-
-    void pending_distances(const HostTables& tables) const {
-        for (std::size_t i = 0; i < tables.pending_light.size(); ++i) {
-            const std::int64_t light = tables.pending_light[i];
-            if (light < 0 || tables.pending_distance[i] < 0 || tables.pending_distance[i] > light)
-                fail(fmt::format("distance of volume {}", i), fmt::format("0 to {}", light),
-                     tables.pending_distance[i]);
         }
     }
 

@@ -6,7 +6,6 @@
 #include <span>
 
 #include "core/base/error.h"
-#include "core/fields/pending_sums.h"
 #include "core/session/backend.h"
 
 namespace pl {

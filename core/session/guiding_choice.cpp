@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/fields/field_model.h"
 #include "core/kernel/film/sample_variance.h"
 
 namespace pl {
@@ -71,17 +72,6 @@ constexpr double kEnoughSamples = 131072.0;
 /// Weight of the guided passes before the newest one: their variances fall while a field learns, and are noisy.
 constexpr double kKept = 0.8;
 
-/// Time that guiding takes at a vertex, over that by a table: rounded from docs/representations.md, on door and cornell.
-double guidance_over_table(Representation representation) {
-    switch (representation) {
-    case Representation::Table: return 1.0;
-    case Representation::SdTree: return 3.0;
-    case Representation::Lobes: return 9.0;
-    case Representation::Neural: return 13.0;
-    }
-    return 1.0;
-}
-
 /// Time of guidance by a field that is constant, over that by one that learns.
 constexpr double kGuidanceWithoutLearning = 0.65;
 
@@ -103,7 +93,7 @@ PathCosts PathCosts::of(std::size_t triangles, FeatureSet features, Representati
         costs.segment += 60.0;
         costs.guidance += 25.0;
     }
-    costs.guidance *= guidance_over_table(representation) * (learns ? 1.0 : kGuidanceWithoutLearning);
+    costs.guidance *= guidance_of(representation) * (learns ? 1.0 : kGuidanceWithoutLearning);
     return costs;
 }
 

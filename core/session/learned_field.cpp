@@ -16,18 +16,9 @@ void require_learned_in(const SceneDescription& scene, const LearnedField& field
 }
 
 std::string summary_of(const LearnedField& field) {
-    const auto text = [&](const std::string& directions) {
-        return fmt::format("{}, {} volumes, {}, {} passes, {} records", info_of(field.method).name,
-                           field.volumes->normals.size(), directions, field.progress.passes, field.progress.records);
-    };
-    if (const auto* tree = std::get_if<HostSdTree>(&field.field))
-        return text(
-            fmt::format("SD-tree of {} leaves and {} nodes", tree->first_node.size(), tree->energy.size() / 4));
-    if (std::holds_alternative<HostLobes>(field.field)) return text(fmt::format("up to {} lobes", kMostLobes));
-    if (const auto* neural = std::get_if<HostNeural>(&field.field))
-        return text(
-            fmt::format("{} lobes at each vertex by a network of {} steps", kVertexLobes, status_of(*neural).steps));
-    return text(fmt::format("{} directions", field.shape.cells.count()));
+    return fmt::format("{}, {} volumes, {}, {} passes, {} records", info_of(field.method).name,
+                       field.volumes->normals.size(), text_of(field.shape, field.field), field.progress.passes,
+                       field.progress.records);
 }
 
 }  // namespace pl

@@ -15,7 +15,7 @@ KernelRange range_of(const RenderSettings& settings) {
     if (settings.view != View::Beauty) return kViewRange;
     KernelRange range = KernelRange::Full;
     with_kernel_of(representation_of(settings.field, settings.method), settings.method, settings.field.learning, true,
-                   [&]<int kEntry>() { range = TypeAt<kEntry, MethodList>::kRange; });
+                   [&]<int kEntry>() { range = TypeAt<kEntry, HostMethodList>::kRange; });
     return range;
 }
 

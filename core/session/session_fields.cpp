@@ -4,7 +4,6 @@
 
 #include "core/base/error.h"
 #include "core/base/timer.h"
-#include "core/fields/reset_tables.h"
 #include "core/kernel/integrator/probe.h"
 #include "core/scene/scene_hash.h"
 #include "core/session/path_settings.h"
@@ -38,9 +37,9 @@ std::uint64_t SessionFields::trained_passes(MethodId method) const {
 
 /// The size of tables follows from their shape; the back end is asked for other fields only, since it may have to wait for a device.
 FieldReport SessionFields::report(MethodId method) const {
-    if (representation_of(settings(), method) == Representation::Table)
-        return {.bytes = placement_.count() * table_bytes(placement_.bins(), placement_.shape().light_clusters)};
-    return backend().field_report(method);
+    const auto report =
+        report_by_shape(placement_.shape(), placement_.count(), representation_of(settings(), method));
+    return report ? *report : backend().field_report(method);
 }
 
 std::optional<FieldStatus> SessionFields::status(MethodId method) const {

@@ -3,11 +3,10 @@
 #pragma once
 
 #include "core/base/kernel_row.h"
-#include "core/fields/field_model.h"
+#include "core/fields/field_kernels.h"
 #include "core/kernel/film/sample_variance.h"
 #include "core/kernel/inspect/views.h"
 #include "core/kernel/integrator/lamp_borders.h"
-#include "core/kernel/methods/method_list.h"
 #include "cpu/paths/pass_setup.h"
 #include "cpu/paths/path_batch.h"
 #include "cpu/rays/batch_tracer.h"
@@ -60,8 +59,8 @@ template <class Pass>
 using PassKernels = KernelRow<PassCounters (*)(const Pass&)>;
 
 using PictureKernel = PassCounters (*)(const PicturePass&);
-/// The picture kernels of a set of effects: [entry of MethodList]. Null where the set is not in the entry's range.
-using PictureKernels = std::array<PictureKernel, MethodList::kCount>;
+/// The picture kernels of a set of effects: [entry of HostMethodList]. Null where the set is not in the entry's range.
+using PictureKernels = std::array<PictureKernel, HostMethodList::kCount>;
 /// The picture kernels of kCompiledSets[kSet].
 template <int kSet>
 const PictureKernels& picture_kernels();
@@ -90,8 +89,8 @@ PassCounters run_picture_pass(const PicturePass& pass) {
 template <int kSet>
 constexpr PictureKernels make_picture_kernels() {
     PictureKernels kernels{};
-    any_method_kernel([&]<int kEntry>() {
-        using Kernel = TypeAt<kEntry, MethodList>;
+    any_entry<HostMethodList>([&]<int kEntry>() {
+        using Kernel = TypeAt<kEntry, HostMethodList>;
         if constexpr (is_compiled(kSet, Kernel::kRange))
             kernels[kEntry] = run_picture_pass<kCompiledSets[kSet], typename Kernel::Integrator>;
         return false;
@@ -106,7 +105,7 @@ PictureKernel picture_kernel(FeatureSet needed) {
         return std::array{picture_kernels<kSet>()[kEntry]...};
     }
     (std::make_integer_sequence<int, kCompiledSetCount>{});
-    return kSets[covering_set(needed, TypeAt<kEntry, MethodList>::kRange)];
+    return kSets[covering_set(needed, TypeAt<kEntry, HostMethodList>::kRange)];
 }
 
 /// Runs the kernel for the smallest compiled set of features that covers `needed`.

@@ -28,7 +28,7 @@ constinit const std::array<UpdateStep, kUpdateStepCount> kUpdateSteps = {{
     {run_step<weigh_row>, UpdateItem::Row, "weigh_row"},
     {run_step<build_row>, UpdateItem::Row, "build_row"},
     {run_step<build_row_choice>, UpdateItem::Volume, "build_row_choice"},
-    {run_step<absorb_light_samples>, UpdateItem::Volume, "absorb_light_samples"},
+    {run_step<absorb_light_samples<TableUpdateView>>, UpdateItem::Volume, "absorb_light_samples"},
     {run_step<move_mixture>, UpdateItem::Volume, "move_mixture"},
     {run_step<move_reach>, UpdateItem::Volume, "move_reach"},
 }};

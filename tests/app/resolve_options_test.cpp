@@ -1,4 +1,5 @@
 // Refused options, and their messages.
+#include "core/fields/field_kernels.h"
 #include "tests/app/parsing.h"
 #include "tests/support/files/input_error.h"
 #include "tests/support/program/run_program.h"
@@ -229,17 +230,20 @@ TEST_CASE("unknown words name the nearest one, if any is near") {
 
 TEST_CASE("SD-trees and lobes take the CPU and refuse CUDA, fields with tables do not") {
     CHECK(parse(render_with({"--method", "reinforcement"})).backend == "auto");
-    for (const auto& [name, representation] :
-         {std::pair<std::string, Representation>{"sd-tree", Representation::SdTree},
-          {"lobes", Representation::Lobes},
-          {"neural", Representation::Neural}}) {
+    CHECK(is_for_devices(Representation::Table));
+    CHECK_FALSE(is_for_devices(Representation::SdTree));
+    CHECK_FALSE(is_for_devices(Representation::Lobes));
+    CHECK(is_for_devices(Representation::Neural));
+    for (const ChoiceInfo<Representation>& info : kRepresentations) {
+        const std::string name(info.name);
+        const Representation representation = info.value;
         const std::vector<std::string> given{"--method", "reinforcement", "--field", name};
         const Options options = parse(render_with(given));
         CHECK(options.render.field.representation == representation);
-        CHECK(options.backend == (has_tables(representation) ? "auto" : "cpu"));
+        CHECK(options.backend == (is_for_devices(representation) ? "auto" : "cpu"));
         std::vector<std::string> on_cuda = given;
         on_cuda.insert(on_cuda.end(), {"--backend", "cuda"});
-        if (has_tables(representation))
+        if (is_for_devices(representation))
             CHECK(parse(render_with(on_cuda)).backend == "cuda");
         else
             CHECK_THAT(error_message(ErrorKind::Unavailable, [&] { parse(render_with(on_cuda)); }),

@@ -88,7 +88,7 @@ RenderSettings settings_of(const GainSetup& setup, const SceneDescription& scene
                                .light = static_cast<LearnedLight>(setup.integer("light"))};
     settings.roulette = static_cast<RouletteRule>(setup.integer("roulette"));
     settings.guiding = static_cast<GuidingRule>(setup.integer("guiding"));
-    settings.field.representation = kAllRepresentations.at(static_cast<std::size_t>(setup.integer("field")));
+    settings.field.representation = kRepresentations.at(static_cast<std::size_t>(setup.integer("field"))).value;
     if (setup["precompute"] > 0.0) settings.field.precompute_samples = setup.integer("precompute");
     return settings;
 }

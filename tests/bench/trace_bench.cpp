@@ -83,7 +83,7 @@ private:
         const FieldShape shape = make_field_shape(*scene_, {});
         backend.upload_scene(scene_);
         backend.upload_volumes(std::make_shared<const HostVolumes>(volumes), shape);
-        backend.upload_field(MethodId::Reinforcement, make_tables(shape, volumes.normals.size()));
+        backend.upload_field(MethodId::Reinforcement, make_arrays<HostTables>(shape, volumes.normals.size()));
         backend.reset_film(kDefaultFilm, kSize, kSize);
         backend.reset_film(kLearningFilm, kSize, kSize);
     }

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "cpu/learning/volume_update.h"
+#include "cpu/learning/field_update.h"
 #include "tests/bench/machine_load.h"
 #include "tests/bench/quartiles.h"
 #include "tests/support/field/random_tables.h"
@@ -68,7 +68,7 @@ std::vector<Version> all_versions(const HostTables& empty) {
 /// Returns whether all versions agree.
 bool measure(std::size_t volumes, int bins, int rounds) {
     const FieldShape shape{.cells = {static_cast<int>(std::lround(std::sqrt(bins)))}};
-    std::vector<Version> versions = all_versions(make_tables(shape, volumes));
+    std::vector<Version> versions = all_versions(make_arrays<HostTables>(shape, volumes));
     for (int round = 0; round < rounds; ++round)
         for (Version& version : versions) {
             if (version.name != "skipped") add_samples(version.tables, static_cast<std::uint32_t>(round));

@@ -56,7 +56,7 @@ struct Room {
         placed.grid = build_volume_grid(scene, placed, 1);
         return std::make_shared<const HostVolumes>(std::move(placed));
     }
-    HostTables empty_tables() const { return make_tables(shape, volumes->normals.size()); }
+    HostTables empty_tables() const { return make_arrays<HostTables>(shape, volumes->normals.size()); }
 };
 
 inline std::unique_ptr<RenderBackend> make_backend(const Room& room, const CpuSettings& settings) {

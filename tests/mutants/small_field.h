@@ -14,7 +14,7 @@ public:
         const FieldSettings settings{.volumes = count, .bins = side * side};
         shape_ = make_field_shape(scene, settings);
         volumes_ = place_volumes(scene, settings);
-        tables_ = make_tables(shape_, volumes_.sites.size());
+        tables_ = make_arrays<HostTables>(shape_, volumes_.sites.size());
     }
 
     TableField view() { return field_view(shape_, volumes_, tables_); }

@@ -56,7 +56,7 @@ CaseResult compare_backends(const BackendCase& compared, bool spoil) {
         compare_arrays(result.film, a.halves.mean[half], b.halves.mean[half]);
     const auto compare = [&](const auto& x, const auto& y) { compare_arrays(result.tables, x, y); };
     zip(cpu.state.tables, cuda.state.tables, compare);
-    zip(cpu.state.neural, cuda.state.neural, compare);
+    test::zip_alike(cpu.state.other, cuda.state.other, compare);
     result.same_counters =
         a.passes == b.passes && a.halves.weights == b.halves.weights && test::same_events(a.counters, b.counters);
     return result;

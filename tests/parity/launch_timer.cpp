@@ -26,9 +26,8 @@ KernelNames all_kernels() {
     KernelNames names;
     any_method_kernel([&]<int kEntry>() {
         using Kernel = TypeAt<kEntry, MethodList>;
-        if constexpr (!Kernel::kIsForHostAlone)
-            add_row(names, cuda::picture_kernels<kEntry>(),
-                    "trace_paths " + std::string(Kernel::Info::kInfo.name) + " entry " + std::to_string(kEntry));
+        add_row(names, cuda::picture_kernels<kEntry>(),
+                "trace_paths " + std::string(Kernel::Info::kInfo.name) + " entry " + std::to_string(kEntry));
         return false;
     });
     add_row(names, cuda::kProbeKernels, "trace_paths probes");

@@ -31,7 +31,7 @@ Picture picture_of(Session session, std::uint32_t passes) {
 /// Tables with training samples that no update has absorbed yet, the same for both back ends. No pending sum stays
 /// empty, and some volumes have none.
 HostTables tables_with_samples(const FieldShape& shape, std::size_t volumes) {
-    HostTables tables = make_tables(shape, volumes);
+    HostTables tables = make_arrays<HostTables>(shape, volumes);
     const Rng rng{.seed = 3};
     for (std::uint32_t i = 0; i < tables.pending_sum.size(); ++i) {
         const Vec4f u = rng.draw(i, Purpose::Scatter);

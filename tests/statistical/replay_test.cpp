@@ -70,7 +70,7 @@ void check_replay(const std::string& name, bool next_event) {
     settings.bins = 64;
     const FieldShape shape = make_field_shape(scene, settings);
     HostVolumes volumes = place_volumes(scene, settings);
-    HostTables tables = make_tables(shape, volumes.sites.size());
+    HostTables tables = make_arrays<HostTables>(shape, volumes.sites.size());
     ReplayedMethod method;
     method.field = field_view(shape, volumes, tables);
     method.learning = {LearningTarget::MonteCarlo, LearnedLight::Indirect};

@@ -11,11 +11,11 @@ namespace pl::ui {
 std::vector<float> entropy_shares(const FieldKeyFrame& frame) {
     std::vector<float> shares;
     for (std::size_t volume = 0; volume < frame.volumes(); ++volume) {
-        const FieldKeyFrame::Cells cells = frame.probabilities(static_cast<std::int32_t>(volume));
+        const std::vector<float> cells = frame.probabilities(static_cast<std::int32_t>(volume));
         float entropy = 0.0f;
-        for (const float p : cells.shares)
+        for (const float p : cells)
             if (p > 0.0f) entropy -= p * std::log(p);
-        shares.push_back(entropy / std::log(static_cast<float>(std::max(cells.side * cells.side, 2))));
+        shares.push_back(entropy / std::log(static_cast<float>(std::max(cells.size(), std::size_t{2}))));
     }
     return shares;
 }

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/fields/field_choices.h"
+#include "core/fields/field_kernels.h"
 #include "ui/draw/words.h"
 
 namespace pl::ui {
@@ -165,7 +166,7 @@ bool RenderControls::is_served(const FieldSettings& field, const std::string& ba
                                   label_of(LearningTarget::ExpectedSarsa)));
         return false;
     }
-    if (backend == "cpu" || has_tables(field.representation)) return true;
+    if (backend == "cpu" || is_for_devices(field.representation)) return true;
     messages_.say(MessageLevel::Warning, fmt::format("{} has no kernels for the field {}: it needs the CPU",
                                                      back_end_label(backend), label_of(field.representation)));
     return false;

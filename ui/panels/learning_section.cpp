@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/fields/field_choices.h"
+#include "core/fields/field_kernels.h"
 #include "ui/draw/value_text.h"
 #include "ui/draw/widgets.h"
 #include "ui/draw/words.h"

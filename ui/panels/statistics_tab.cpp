@@ -89,7 +89,7 @@ void draw_field(const std::optional<FieldStatus>& field) {
         text_row("Network",
                  field->network->is_lost
                      ? std::string("lost")
-                     : fmt::format("{}B, {} steps", short_number(static_cast<double>(network_bytes())),
+                     : fmt::format("{}B, {} steps", short_number(static_cast<double>(kNetworkBytes)),
                                    field->network->steps),
                  network_hint(field->network->is_lost), field->network->is_lost ? colors::kWarning : colors::kText);
     text_row("Memory", short_number(static_cast<double>(field->bytes)) + "B");

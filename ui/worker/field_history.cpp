@@ -29,16 +29,6 @@ VolumeInspection FieldKeyFrame::inspect(std::int32_t volume) const {
     return inspection;
 }
 
-FieldKeyFrame::Cells FieldKeyFrame::probabilities(std::int32_t volume) const {
-    return visit_field(view_, [&](const auto& view) {
-        const FieldInspector auto inspector = inspector_of(view);
-        Cells cells{.side = inspector.cells().side, .shares = {}};
-        for (int cell = 0; cell < inspector.cells().count(); ++cell)
-            cells.shares.push_back(inspector.probability(volume, cell));
-        return cells;
-    });
-}
-
 std::uint64_t next_key_frame(std::uint64_t passes) { return passes < kFirstPasses ? passes + 1 : grown(passes); }
 
 std::size_t frame_to_evict(const std::vector<std::uint64_t>& passes) {

@@ -29,12 +29,7 @@ public:
 
     /// `volume` < volumes().
     VolumeInspection inspect(std::int32_t volume) const;
-    /// Probabilities of sampling the cells, side x side: the part of inspect() that many volumes need.
-    struct Cells {
-        int side = 0;
-        std::vector<float> shares;
-    };
-    Cells probabilities(std::int32_t volume) const;
+    std::vector<float> probabilities(std::int32_t volume) const { return cell_probabilities(view_, volume); }
 
 private:
     LearnedField learned_;

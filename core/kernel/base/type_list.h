@@ -11,6 +11,11 @@ struct TypeList {
     static constexpr int kCount = static_cast<int>(sizeof...(Types));
 };
 
+template <class... A, class... B>
+constexpr TypeList<A..., B...> operator+(TypeList<A...>, TypeList<B...>) {
+    return {};
+}
+
 /// The type of one entry.
 template <int kIndex, class List>
 struct TypeAtIndex;

@@ -1,5 +1,6 @@
 // The irradiance by light samples of a volume: the part of the light that light samples bring, which a field trained for
-// scattered directions leaves to them. By it, lights are chosen where there are many.
+// scattered directions leaves to them. By it, lights are chosen where there are many. Of any
+// representation: `View` has LightSampleSums, to be written, `light_clusters`, `radiance_unit` and `rate`.
 #pragma once
 
 #include "core/kernel/guiding/table_update.h"
@@ -11,7 +12,8 @@ inline constexpr std::uint32_t kFewestLightSamples = 32;
 
 /// Derives the probabilities of the clusters of lights from their irradiance by light samples, occlusion included; none while it
 /// is 0.   [compare Vevoda et al. 2018, "Bayesian Online Regression for Adaptive Direct Illumination Sampling"]
-PL_HD inline void build_light_choice(const TableUpdateView& field, std::uint32_t volume) {
+template <class View>
+PL_HD void build_light_choice(const View& field, std::uint32_t volume) {
     const std::uint32_t first = volume * field.light_clusters;
     const std::uint32_t last = first + field.light_clusters - 1;
     float total = 0.0f;
@@ -26,8 +28,8 @@ PL_HD inline void build_light_choice(const TableUpdateView& field, std::uint32_t
 }
 
 /// Moves the irradiance by each cluster of lights by `step` towards the mean of `fresh` new light samples.
-PL_HD inline void absorb_light_clusters(const TableUpdateView& field, std::uint32_t volume, std::uint32_t fresh,
-                                        float step) {
+template <class View>
+PL_HD void absorb_light_clusters(const View& field, std::uint32_t volume, std::uint32_t fresh, float step) {
     for (std::uint32_t i = volume * field.light_clusters; i < (volume + 1) * field.light_clusters; ++i) {
         const float mean = from_fixed_point(field.pending_cluster[i], fresh, field.radiance_unit);
         field.cluster_light[i] += step * (mean - field.cluster_light[i]);
@@ -38,7 +40,8 @@ PL_HD inline void absorb_light_clusters(const TableUpdateView& field, std::uint3
 
 /// Moves a volume's irradiance by light samples towards the mean of the new ones, at the rate of the cells: their MIS weights
 /// follow the tables.
-PL_HD inline void absorb_light_samples(const TableUpdateView& field, std::uint32_t volume) {
+template <class View>
+PL_HD void absorb_light_samples(const View& field, std::uint32_t volume) {
     const std::uint32_t fresh = field.pending_direct_count[volume];
     if (fresh == 0) return;
     const float mean = from_fixed_point(field.pending_direct[volume], fresh, field.radiance_unit);

@@ -1,12 +1,50 @@
-// Mixtures of von Mises-Fisher lobes as kernels read them: the mixture as a point sees it, its product with the cosine, and density.
+// Mixtures of von Mises-Fisher lobes: their arrays, and how kernels read them: the mixture as a point sees it, its product with the cosine, and density.
 // [Ruppert, Herholz and Lensch 2020, "Robust Fitting of Parallax-Aware Mixtures for Path Guiding"]
 #pragma once
 
-#include "core/kernel/guiding/lobe_arrays.h"
+#include "core/kernel/guiding/field_view.h"
 #include "core/kernel/guiding/lobe_mixture.h"
-#include "core/kernel/guiding/table_view.h"
 
 namespace pl {
+
+/// Most lobes of a mixture, and those of a fresh one. Half of the 32 and 16 of Ruppert et al. 2020: a volume serves the surface
+/// points of one normal, whose hemisphere takes half the lobes of a sphere.
+inline constexpr std::uint32_t kMostLobes = 16;
+inline constexpr std::uint32_t kFirstLobes = 8;
+
+/// Statistics of a lobe: means over training samples of responsibility times a quantity, the first of them times the weight
+/// w = target / density. Directions are those at the volume's site, in the frame of its normal.
+enum LobeMoment : std::uint32_t {
+    kMomentWeight,  ///< w: radiance times steradians
+    kMomentX,       ///< w times direction
+    kMomentY,
+    kMomentZ,
+    kMomentInverse,  ///< w / distance from the site, in units of 1 / extent
+    kMomentXx,       ///< w times products of the direction's components; that of z z follows from the weight
+    kMomentXy,
+    kMomentXz,
+    kMomentYy,
+    kMomentYz,
+    kMomentSquare,  ///< (w / its mean)^2: how few samples bring the light
+    kMomentMisfit,  ///< f^2 / (density mixture), f the normalized target: chi-square of Pearson
+    kLobeMoments
+};
+
+/// One mixture per radiance volume, and the volume's irradiance. A lobe is numbered volume * kMostLobes + i.
+template <template <class> class Learned, template <class> class Pending>
+struct LobeArrays : MixtureSums<Learned, Pending>,
+                    VolumeIrradiance<Learned, Pending>,
+                    LightSampleSums<Learned, Pending> {
+    Learned<std::uint32_t> lobe_count;  ///< of the volume, 1 to kMostLobes. [volume]
+    Learned<float> weight;              ///< share of the lobe in its mixture; 0 of those not in use. [lobe]
+    Learned<float> mean;                ///< unit direction in the frame of the volume's normal. [lobe][3]
+    Learned<float> kappa;               ///< concentration. [lobe]
+    Learned<float> inverse_distance;    ///< from the site to the lobe's light, in units of 1 / extent. [lobe]
+    Learned<float> moments;             ///< statistics so far. [lobe][LobeMoment]
+    Learned<std::uint32_t> age;         ///< updates since the lobe was split or merged. [lobe]
+    Learned<float> total;  ///< integral of learned radiance over directions; 0: nothing is known. [volume]
+    Pending<std::int64_t> pending_moments;  ///< sums of new training samples, fixed point. [lobe][LobeMoment]
+};
 
 /// Largest shift of a mean by parallax, in units of the distance to its light: beyond it lobes would turn around.
 inline constexpr float kMostShift = 0.9f;
@@ -36,12 +74,7 @@ PL_HD inline Vec3f unpack_direction(std::int32_t bits) {
     return glm::normalize(Vec3f{p.x, p.y, z});
 }
 
-struct LobeView : PlacementView, LobeArrays<ConstSpan, Span> {
-    DirectionCells cells;              ///< of the hemispheres that are shown
-    std::uint32_t light_clusters = 0;  ///< of the scene's light tree; 0: no tree
-    float radiance_unit = 1.0f;        ///< of the fixed-point sums: a power of two not below the brightest emission
-    Writers writers = Writers::Many;   ///< threads that add to the pending sums
-
+struct LobeView : FieldView, LobeArrays<ConstSpan, Span> {
     /// A lobe of a volume as its site sees it.
     PL_HD VmfLobe lobe_of(std::uint32_t volume, std::uint32_t i) const {
         const std::uint32_t lobe = volume * kMostLobes + i;

@@ -43,8 +43,9 @@ PL_HD inline float light_weight(const TableView& field, std::int32_t volume, flo
 /// Adds one training sample to the sums of the Newton step. With y = (p_bsdf - p_table) / q = (bsdf_ratio - 1) / (1 - a) and
 /// w = f L cos / q relative to its mean, the first two derivatives of the divergence by a are -E[w y] and E[w y^2]; the
 /// factors of 1-a, constant between two updates, are applied in move_mixture(). `weight` is light_weight().
-PL_HD inline void record_mixture(const TableView& field, std::int32_t volume, float bsdf_ratio, float weight) {
-    const auto index = static_cast<std::uint32_t>(volume);
+/// `field`: a view with MixtureSums; `index`: of the volume or leaf that learns.
+template <class Field>
+PL_HD void record_mixture(const Field& field, std::uint32_t index, float bsdf_ratio, float weight) {
     if (!(weight > 0.0f)) return;
     const float excess = bsdf_ratio - 1.0f;
     const float slope = -weight * excess * kMixtureStepsPerUnit;
@@ -55,7 +56,7 @@ PL_HD inline void record_mixture(const TableView& field, std::int32_t volume, fl
 
 /// Moves a volume's fraction to the mean of the Newton steps so far, weighted by curvature and recency: early steps
 /// are based on worse tables.
-PL_HD inline void move_mixture(const TableUpdateView& field, std::uint32_t volume) {
+PL_HD inline void move_mixture(const MixtureSums<Span, Span>& field, std::uint32_t volume) {
     constexpr float kKept = 0.9f;             // weight of the older steps, per update with training samples
     constexpr float kPriorCurvature = 32.0f;  // weight of the initial fraction: that of about thirty training samples
     const float old = field.bsdf_fraction[volume];

@@ -1,12 +1,29 @@
-// An SD-tree as kernels read it: lookup in its two kinds of trees, sampling and density of directions.
+// An SD-tree: its arrays, and how kernels read them: lookup in its two kinds of trees, sampling and density of directions.
 // [Mueller et al. 2017, "Practical Path Guiding for Efficient Light-Transport Simulation"]
 #pragma once
 
 #include "core/kernel/base/equal_area_sphere.h"
-#include "core/kernel/guiding/sd_tree_arrays.h"
-#include "core/kernel/guiding/table_view.h"
+#include "core/kernel/guiding/field_view.h"
 
 namespace pl {
+
+/// A binary tree over space, each of whose leaves has a quadtree over directions; and the irradiance of the radiance volumes.
+/// The BSDF fractions are those of leaves.
+/// A slot is one quadrant of a node of a quadtree: slot = 4 node + quadrant.
+template <template <class> class Learned, template <class> class Pending>
+struct SdTreeArrays : MixtureSums<Learned, Pending>,
+                      VolumeIrradiance<Learned, Pending>,
+                      LightSampleSums<Learned, Pending> {
+    Learned<std::uint32_t> spatial;     ///< SpatialNode::word. [spatial node]
+    Learned<std::uint32_t> first_node;  ///< root of the quadtree, whose nodes follow one another. [leaf]
+
+    Learned<float> energy;                 ///< integral of incident radiance over the quadrant, in steradians. [slot]
+    Learned<std::uint32_t> child;          ///< node that divides the quadrant, counted from the root; 0: none. [slot]
+    Pending<std::int64_t> pending_energy;  ///< of target / density, fixed point. [slot]
+
+    Learned<std::uint32_t> visits;         ///< training samples so far; divided where a leaf is split. [leaf]
+    Pending<std::uint32_t> pending_count;  ///< of training samples. [leaf]
+};
 
 /// Deepest node of a quadtree; the root has depth 0. Quadrants then have sides of at least 2^-20.
 inline constexpr std::uint32_t kMostQuadDepth = 19;
@@ -45,13 +62,9 @@ struct QuadSlot {
 /// Sum over the quadrants of a node, exact for four equal ones: then a node that was divided evenly keeps its sum.
 PL_HD inline float sum_of_quadrants(const float* energy) { return (energy[0] + energy[1]) + (energy[2] + energy[3]); }
 
-struct SdTreeView : PlacementView, SdTreeArrays<ConstSpan, Span> {
-    DirectionCells cells;              ///< of the hemispheres that are shown
-    std::uint32_t light_clusters = 0;  ///< of the scene's light tree; 0: no tree
-    float radiance_unit = 1.0f;        ///< of the fixed-point sums: a power of two not below the brightest emission
-    Vec3f corner{0.0f};                ///< lowest corner of the cube that the tree divides
-    float inverse_edge = 1.0f;         ///< one over the edge of the cube
-    Writers writers = Writers::Many;   ///< threads that add to the pending sums
+struct SdTreeView : FieldView, SdTreeArrays<ConstSpan, Span> {
+    Vec3f corner{0.0f};         ///< lowest corner of the cube that the tree divides
+    float inverse_edge = 1.0f;  ///< one over the edge of the cube
 
     /// A position in units of the cube, moved into it: [0,1)^3.
     PL_HD Vec3f in_cube(Vec3f position) const {

@@ -105,7 +105,7 @@ private:
         const std::int32_t volume = sample.entry.volume;
         const float weight = light_weight(*this, volume, sample.bsdf_ratio, sample.target);
         record_reach(*this, volume, weight, sample.distance);
-        if (learns_fraction) record_mixture(*this, volume, sample.bsdf_ratio, weight);
+        if (learns_fraction) record_mixture(*this, static_cast<std::uint32_t>(volume), sample.bsdf_ratio, weight);
     }
 };
 static_assert(RadianceField<TableField>);

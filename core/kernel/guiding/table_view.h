@@ -2,32 +2,35 @@
 // training samples are added to. core/fields owns the memory.
 #pragma once
 
-#include "core/kernel/base/atomics.h"
-#include "core/kernel/guiding/direction_cells.h"
-#include "core/kernel/guiding/placement_view.h"
-#include "core/kernel/guiding/table_arrays.h"
+#include "core/kernel/guiding/field_view.h"
 #include "core/kernel/guiding/volume_record.h"
 
 namespace pl {
 
-/// Targets are clamped at this multiple of the field's radiance unit before they are summed. Pictures are not.
-inline constexpr float kMaxRecordedUnits = 65536.0f;
+/// The arrays of a field of tables. Their lengths, initial values and division when a volume is split are in core/fields/table_model.h.
+/// Shapes: [volume][cell] with cells row by row, [volume][row], or [volume].
+template <template <class> class Learned, template <class> class Pending>
+struct TableArrays : MixtureSums<Learned, Pending>, LightSampleSums<Learned, Pending> {
+    Learned<float> radiance;               ///< learned incident radiance Q, rms(). [volume][cell]
+    Learned<std::uint32_t> visits;         ///< training samples so far. [volume][cell]
+    Pending<std::int64_t> pending_sum;     ///< of targets, fixed point. [volume][cell]
+    Pending<std::uint32_t> pending_count;  ///< of training samples. [volume][cell]
 
-/// Steps per radiance unit of the fixed-point sums: 2^-24 resolves a float's mantissa, and 63 bits hold 2^23 - 1 samples of
-/// the largest target between two updates.
-inline constexpr float kStepsPerUnit = 16777216.0f;
+    /// Inclusive cumulative probabilities, each row ending in exactly 1.
+    Learned<float> row_cdf;     ///< [volume][row]
+    Learned<float> column_cdf;  ///< within the row. [volume][row][column]
 
-/// A Span that only reads; a type of its own, because nvcc takes an alias template for the template that it names.
-template <class T>
-struct ConstSpan : Span<const T> {
-    using Span<const T>::Span;
+    Learned<float> mean_radiance;  ///< cosine-weighted mean of Q over the hemisphere: irradiance / pi. [volume]
+    Learned<float> change;         ///< mean |new - old| of the cells that the last update moved. [volume]
+
+    Pending<std::int64_t> pending_distance;  ///< see record_reach(). [volume]
+    Pending<std::int64_t> pending_light;     ///< [volume]
+    Learned<float> reach_distance;  ///< sum of weight times distance of the training samples so far. [volume]
+    Learned<float> reach_weight;    ///< sum of their weights. [volume]
+    Learned<float> inverse_reach;   ///< one over the radius of Parallax. [volume]
 };
 
-struct TableView : PlacementView, TableArrays<ConstSpan, Span> {
-    DirectionCells cells;
-    std::uint32_t light_clusters = 0;  ///< of the scene's light tree; 0: no tree
-    float radiance_unit = 1.0f;        ///< of the fixed-point sums: a power of two not below the brightest emission
-    Writers writers = Writers::Many;   ///< threads that add to the pending sums
+struct TableView : FieldView, TableArrays<ConstSpan, Span> {
     Span<const VolumeRecord> records;  ///< read instead of the arrays they repeat; empty: none are gathered. [volume]
 
     /// A device always has records.
@@ -50,26 +53,6 @@ PL_HD inline VolumeRecord gather_record(const TableView& field, std::uint32_t vo
             .bsdf_fraction = field.bsdf_fraction[volume],
             .mean_radiance = field.mean_radiance[volume],
             .direct = field.direct[volume]};
-}
-
-/// Whether the sums will hold less than the target.
-PL_HD inline bool is_clamped(float target, float radiance_unit) { return target > kMaxRecordedUnits * radiance_unit; }
-
-/// Fixed-point steps of a target; 0 for NaN and negative values.
-PL_HD inline std::int64_t to_fixed_point(float target, float radiance_unit) {
-    const float units = target / radiance_unit;
-    if (!(units > 0.0f)) return 0;
-    return static_cast<std::int64_t>(min_of(units, kMaxRecordedUnits) * kStepsPerUnit);
-}
-
-/// Mean target of `count` training samples, whose sum in fixed-point steps is rounded to `steps`.
-template <class N>
-PL_INLINE typename N::Real mean_of_steps(const typename N::Real& steps, const typename N::Uint& count,
-                                         float radiance_unit) {
-    return (steps / kStepsPerUnit) / N::count_to_real(count) * radiance_unit;
-}
-PL_HD inline float from_fixed_point(std::int64_t sum, std::uint32_t count, float radiance_unit) {
-    return mean_of_steps<One>(static_cast<float>(sum), count, radiance_unit);
 }
 
 /// Adds one training sample of the radiance incident at a volume through a cell. Any thread, any order: the same sums.

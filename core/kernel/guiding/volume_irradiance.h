@@ -1,5 +1,5 @@
-// Irradiance and BSDF fraction beside a representation whose directions are not cells of a volume's hemisphere: for any field with
-// the arrays of these names.
+// Irradiance and BSDF fraction beside a representation whose directions are not cells of a volume's hemisphere: for views with
+// VolumeIrradiance and MixtureSums.
 #pragma once
 
 #include "core/kernel/guiding/guiding_field.h"
@@ -35,12 +35,8 @@ PL_HD void record_fraction(const Field& field, std::uint32_t index, std::uint32_
                            float target) {
     const float expected = field.mean_radiance[volume];
     if (!(expected > 0.0f)) return;
-    TableView sums;
-    sums.pending_slope = field.pending_slope;
-    sums.pending_curvature = field.pending_curvature;
-    sums.writers = field.writers;
     const float weight = min_of(target / expected, kMaxMixtureWeight) * bsdf_ratio;
-    record_mixture(sums, static_cast<std::int32_t>(index), bsdf_ratio, weight);
+    record_mixture(field, index, bsdf_ratio, weight);
 }
 
 }  // namespace pl

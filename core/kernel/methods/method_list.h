@@ -1,11 +1,9 @@
-// The list of all methods. Both back ends, their build lists and launchers, the session and the window expand it: a method is
-// its header, and its lines here.
+// The list of all methods, and of their kernels on both back ends, whose build lists and launchers expand it, as do the session and the
+// window: a method is its header, and its lines here.
 #pragma once
 
 #include "core/kernel/base/type_list.h"
-#include "core/kernel/guiding/lobe_field.h"
 #include "core/kernel/guiding/neural_field.h"
-#include "core/kernel/guiding/sd_tree_field.h"
 #include "core/kernel/guiding/table_field.h"
 #include "core/kernel/methods/default.h"
 #include "core/kernel/methods/precomputed.h"
@@ -20,17 +18,11 @@ struct MethodKernel {
     using Info = Identity;
     using Integrator = M;
     static constexpr KernelRange kRange = range;
-    static constexpr bool kIsForHostAlone = false;
-};
-/// One that no device has kernels for.
-template <class Identity, Method M, KernelRange range = KernelRange::Full>
-struct HostKernel : MethodKernel<Identity, M, range> {
-    static constexpr bool kIsForHostAlone = true;
 };
 
-// One line each: cuda/CMakeLists.txt counts those that devices have, which come first, and compiles each in a file of its own. Only tables
-// have other targets than that of Expected Sarsa, and kernels for fields that stay constant: a field of another kind stays constant by
-// FieldTrainer::trains.
+// One line each: cuda/CMakeLists.txt counts them and compiles each in a file of its own. The host has a kernel besides for each
+// representation that devices do not have, see core/fields/field_kernels.h. Only tables have other targets than that of Expected Sarsa, and
+// kernels for fields that stay constant: a field of another kind stays constant by FieldTrainer::trains.
 // clang-format off
 using MethodList = TypeList<
     MethodKernel<Default, DefaultMethod>,
@@ -38,21 +30,19 @@ using MethodList = TypeList<
     MethodKernel<Reinforcement, Guided<TableField, ExpectedSarsa>>,
     MethodKernel<Reinforcement, Guided<TableField, Sarsa>, KernelRange::Sparse>,
     MethodKernel<Reinforcement, Guided<TableField, MonteCarlo>, KernelRange::Sparse>,
-    MethodKernel<Reinforcement, Guided<NeuralField, ExpectedSarsa>, KernelRange::Sparse>,
-    HostKernel<Reinforcement, Guided<SdTreeField, ExpectedSarsa>, KernelRange::Sparse>,
-    HostKernel<Reinforcement, Guided<LobeField, ExpectedSarsa>, KernelRange::Sparse>
+    MethodKernel<Reinforcement, Guided<NeuralField, ExpectedSarsa>, KernelRange::Sparse>
 >;
 // clang-format on
 
 /// Number of the method that an entry of the list belongs to.
-template <int kEntry>
+template <int kEntry, class List = MethodList>
 constexpr std::uint32_t method_index() {
     if constexpr (kEntry == 0) {
         return 0;
     } else {
         constexpr bool kSame =
-            std::is_same_v<typename TypeAt<kEntry, MethodList>::Info, typename TypeAt<kEntry - 1, MethodList>::Info>;
-        return method_index<kEntry - 1>() + (kSame ? 0u : 1u);
+            std::is_same_v<typename TypeAt<kEntry, List>::Info, typename TypeAt<kEntry - 1, List>::Info>;
+        return method_index<kEntry - 1, List>() + (kSame ? 0u : 1u);
     }
 }
 
@@ -81,15 +71,15 @@ constexpr bool is_learning(MethodId method) {
     });
 }
 
-/// Calls visit.operator()<kEntry>() for the entry that serves passes of a method with a field of type F. Passes of a method that learns
+/// Calls visit.operator()<kEntry>() for the entry of a list that serves passes of a method with a field of type F. Passes of a method that learns
 /// may train nothing: they run an integrator whose field stays constant, if F has one. Returns whether there is an entry.
-template <class F, class Visit>
+template <class F, class List = MethodList, class Visit>
 constexpr bool with_method_kernel(MethodId method, const LearningSettings& learning, bool trains, Visit&& visit) {
     const bool is_constant = !trains && is_learning(method);
-    return any_method_kernel([&]<int kEntry>() {
-        using Integrator = typename TypeAt<kEntry, MethodList>::Integrator;
+    return any_entry<List>([&]<int kEntry>() {
+        using Integrator = typename TypeAt<kEntry, List>::Integrator;
         if constexpr (takes_field<Integrator, F>()) {
-            const bool is_own = MethodId{method_index<kEntry>()} == method && Integrator::serves(learning);
+            const bool is_own = MethodId{method_index<kEntry, List>()} == method && Integrator::serves(learning);
             if (!is_own && !(is_constant && Integrator::kIsConstant)) return false;
             visit.template operator()<kEntry>();
             return true;

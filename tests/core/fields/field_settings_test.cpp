@@ -69,7 +69,7 @@ TEST_CASE("Bytes are those of the arrays") {
         settings.volumes = 50;
         settings.bins = bins;
         HostVolumes volumes = place_volumes(scene, settings);
-        const HostTables tables = make_tables(make_field_shape(scene, settings), volumes.sites.size());
+        const HostTables tables = make_arrays<HostTables>(make_field_shape(scene, settings), volumes.sites.size());
         const std::size_t without_grid = bytes_per_volume(bins) - kGridBytesPerVolume;
         CHECK(volume_bytes(volumes) + field_bytes(tables) == volumes.sites.size() * without_grid);
         CHECK(volume_bytes(volumes) + field_bytes(tables) ==
@@ -109,7 +109,7 @@ TEST_CASE("Empty tables sample uniformly and end in exactly 1") {
         settings.bins = bins;
         const FieldShape shape = make_field_shape(pack_scene(SceneDescription{}), settings);
         REQUIRE(shape.cells.count() == bins);
-        HostTables tables = make_tables(shape, 3);
+        HostTables tables = make_arrays<HostTables>(shape, 3);
         const HostVolumes volumes;
         const TableField field = field_view(shape, volumes, tables);
         for (std::int32_t volume = 0; volume < 3; ++volume) {

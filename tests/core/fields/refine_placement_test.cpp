@@ -34,7 +34,7 @@ struct Learned {
           surfaces(find_lit_surfaces(scene)) {
         shape = make_field_shape(scene, settings);
         volumes = place_volumes(scene, settings);
-        tables = make_tables(shape, volumes.normals.size());
+        tables = make_arrays<HostTables>(shape, volumes.normals.size());
         for (std::size_t i = 0; i < volumes.normals.size(); ++i) teach(i, visits, false);
     }
 

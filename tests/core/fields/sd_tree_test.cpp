@@ -1,10 +1,10 @@
 // The SD-tree: its densities, its samples, the order of its sums, its bounds, and refusal of damaged trees.
-#include "core/fields/sd_tree_update.h"
+#include "core/fields/sd_tree_model.h"
 
 #include <algorithm>
 #include <functional>
 
-#include "core/fields/reset_tables.h"
+#include "core/fields/field_model.h"
 #include "tests/support/catch.hpp"
 #include "tests/support/field/sd_tree_fixture.h"
 #include "tests/support/statistics/sampling_rule.h"
@@ -201,7 +201,8 @@ TEST_CASE("An SD-tree keeps its bound of nodes") {
             CHECK_FALSE(damage_of(tree.tree).has_value());
         }
         CHECK(tree.nodes() > most / 8);
-        CHECK(field_bytes(tree.tree) <= most * sd_tree_bytes_per_node() + sd_tree_bytes_per_volume(0));
+        CHECK(field_bytes(tree.tree) <=
+              most * SdTreeModel::bytes_of_node() + bytes_by_volume<HostSdTree>(tree.shape));
     }
 }
 

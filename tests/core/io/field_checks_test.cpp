@@ -213,7 +213,7 @@ TEST_CASE("Damaged networks in files are refused, whole ones come back") {
         return input_error([&] { read_field(folder.path() / "field"); });
     };
     write_field(folder.path() / "field", field);
-    CHECK(status_of(std::get<HostNeural>(read_field(folder.path() / "field").field)).steps == 9);
+    CHECK(NeuralModel::network(std::get<HostNeural>(read_field(folder.path() / "field").field)).steps == 9);
     CHECK_THAT(refused([](HostNeural& neural) { neural.average[2] = kNan; }),
                contains("damaged field: average of place 2: expected a finite number, got nan"));
     CHECK_THAT(refused([](HostNeural& neural) { neural.weights[3] = kInfinity; }),
@@ -235,7 +235,7 @@ TEST_CASE("Probabilities that fall are refused") {
     LearnedField field = small_field();
     field.settings.bins = 16;
     field.shape.cells.side = 4;
-    tables_of(field.field) = make_tables(field.shape, kVolumes);
+    tables_of(field.field) = make_arrays<HostTables>(field.shape, kVolumes);
     write_field(folder.path() / "field", field);
     CHECK_NOTHROW(read_field(folder.path() / "field"));
     std::swap(tables_of(field.field).column_cdf[5], tables_of(field.field).column_cdf[6]);

@@ -1,4 +1,4 @@
-// Sessions that learn by a representation other than the table: files, checkpoints, inspection, memory, and the fixed point of a furnace.
+// Sessions that learn by each of the representations: files, checkpoints, inspection, memory, and the fixed point of a furnace.
 #include "core/diagnose/record_path.h"
 #include "core/io/checkpoint_file.h"
 #include "tests/core/session/through_file.h"
@@ -13,20 +13,33 @@ using namespace pl::test;
 
 namespace {
 
-struct Represented {
-    Representation representation;
-    const char* summary;
-    /// Least of the largest sums of the shown shares of a volume, by quadrature over the volume's side: the lobe of the cosine reaches
-    /// below the surface, and the density of a tree has steps.
-    double largest_sum;
-};
-constexpr Represented kRepresented[] = {{Representation::SdTree, "SD-tree of", 0.8},
-                                        {Representation::Lobes, "up to 16 lobes", 0.7},
-                                        {Representation::Neural, "8 lobes at each vertex by a network of ", 0.7}};
+std::vector<Representation> all_representations() {
+    std::vector<Representation> all;
+    for (const ChoiceInfo<Representation>& info : kRepresentations) all.push_back(info.value);
+    return all;
+}
 
-RenderSettings settings_of(const Represented& field, const SceneDescription& scene, bool next_event = false) {
+/// Least of the largest sums of the shown shares of a volume, by quadrature over the volume's side: the lobe of the cosine reaches
+/// below the surface, and the density of a tree has steps.
+double least_largest_sum(Representation representation) {
+    if (representation == Representation::Table) return 0.99;
+    return representation == Representation::SdTree ? 0.8 : 0.7;
+}
+
+/// Words of the summary of a field, besides a number.
+const char* words_of(Representation representation) {
+    switch (representation) {
+    case Representation::Table: return "64 directions";
+    case Representation::SdTree: return "SD-tree of";
+    case Representation::Lobes: return "up to 16 lobes";
+    case Representation::Neural: return "8 lobes at each vertex by a network of ";
+    }
+    return "";
+}
+
+RenderSettings settings_of(Representation representation, const SceneDescription& scene, bool next_event = false) {
     RenderSettings settings = small_settings(scene, {MethodId::Reinforcement, next_event});
-    settings.field.representation = field.representation;
+    settings.field.representation = representation;
     return settings;
 }
 
@@ -35,28 +48,29 @@ LargeArray<float> mean_radiance_of(const Session& session) {
                       session.export_field(MethodId::Reinforcement).field);
 }
 
-/// Of the arrays beside the placement.
+/// Of the arrays beside the placement: those that volumes own, and those of a network; a tree has a few nodes.
 std::size_t fewest_bytes(Representation representation, std::size_t volumes) {
-    switch (representation) {
-    case Representation::Lobes: return volumes * lobe_bytes();
-    case Representation::Neural: return volumes * table_bytes(64) + network_bytes();
-    default: return 10000;
-    }
+    std::size_t bytes = 0;
+    with_model(representation, [&]<class Model>() {
+        bytes = volumes * bytes_by_volume<typename Model::template Storage<LargeArray>>({.cells = {8}});
+        if constexpr (requires { Model::kBytesBesideVolumes; }) bytes += Model::kBytesBesideVolumes;
+    });
+    return std::max<std::size_t>(bytes, 10000);
 }
 
 }  // namespace
 
 TEST_CASE("A session with any representation has the same bits for any number of threads") {
     const SceneDescription scene = shipped_scene("door");
-    for (const Represented& field : kRepresented)
+    for (const Representation representation : all_representations())
         for (const bool next_event : {false, true}) {
-            Session one = make_session(scene, settings_of(field, scene, next_event), 1);
+            Session one = make_session(scene, settings_of(representation, scene, next_event), 1);
             render_passes(one, 6);
             const State expected = state_of(one);
             REQUIRE(std::ranges::any_of(mean_radiance_of(one), [](float mean) { return mean > 0.0f; }));
-            REQUIRE((field.representation != Representation::SdTree || expected.tree.first_node.size() > 8));
+            if (const auto* tree = std::get_if<HostSdTree>(&expected.other)) REQUIRE(tree->first_node.size() > 8);
             for (const int threads : {2, 8}) {
-                Session other = make_session(scene, settings_of(field, scene, next_event), threads);
+                Session other = make_session(scene, settings_of(representation, scene, next_event), threads);
                 render_passes(other, 6);
                 CHECK(same_state(expected, state_of(other)));
             }
@@ -64,13 +78,13 @@ TEST_CASE("A session with any representation has the same bits for any number of
 }
 
 TEST_CASE("A field of any representation that moved to another session through a file goes on with the same bits") {
-    for (const Represented& represented : kRepresented) {
+    for (const Representation representation : all_representations()) {
         const SceneDescription scene = shipped_scene("door");
-        const RenderSettings settings = settings_of(represented, scene);
+        const RenderSettings settings = settings_of(representation, scene);
         Session first = make_session(scene, settings, 2);
         render_passes(first, 3);
         const LearnedField field = first.export_field(MethodId::Reinforcement);
-        CHECK_THAT(summary_of(field), contains(represented.summary) && contains("3 passes"));
+        CHECK_THAT(summary_of(field), contains(words_of(representation)) && contains("3 passes"));
         Session second = make_session(scene, small_settings(scene, {MethodId::Reinforcement, false}), 1);
         render_passes(second, 1);
         first.apply(EditRestart{});
@@ -99,19 +113,19 @@ void check_checkpoint(const SceneDescription& scene, const RenderSettings& setti
 
 TEST_CASE("A checkpoint of a session with any representation is continued with the same bits") {
     const SceneDescription scene = shipped_scene("door");
-    for (const Represented& represented : kRepresented)
-        check_checkpoint(scene, settings_of(represented, scene, true));
+    for (const Representation representation : all_representations())
+        check_checkpoint(scene, settings_of(representation, scene, true));
 }
 
 TEST_CASE("Other representations drop what was learned, and return to the same bits") {
     const SceneDescription scene = shipped_scene("door");
-    const RenderSettings settings = settings_of(kRepresented[0], scene);
+    const RenderSettings settings = settings_of(Representation::SdTree, scene);
     Session session = make_session(scene, settings, 2);
     render_passes(session, 3);
     const State expected = state_of(session);
     session.apply(EditField{small_settings(scene, {MethodId::Reinforcement, false}).field});
     render_passes(session, 2);
-    CHECK(state_of(session).tree.first_node.empty());
+    CHECK(field_bytes(state_of(session).other) == 0);
     CHECK_FALSE(state_of(session).tables.radiance.empty());
     session.apply(EditField{settings.field});
     render_passes(session, 3);
@@ -122,10 +136,12 @@ TEST_CASE("Other representations drop what was learned, and return to the same b
 }
 
 // Targets of all light in a furnace have no noise given V, and the quotient of V keeps it so: V comes to e/(1-rho) = 1.
+// That of tables is in furnace_tables_test.cpp.
 TEST_CASE("The irradiance beside any representation comes to that of the furnace") {
-    for (const Represented& represented : kRepresented) {
+    for (const Representation representation : all_representations()) {
+        if (representation == Representation::Table) continue;
         const SceneDescription scene = furnace_scene(0.5f, 0.5f);
-        RenderSettings settings = settings_of(represented, scene);
+        RenderSettings settings = settings_of(representation, scene);
         settings.field.volumes = 12;
         settings.field.learning.light = LearnedLight::All;
         Session session = make_session(scene, settings, 2);
@@ -149,10 +165,10 @@ void check_views(Session& session) {
 }
 
 TEST_CASE("The learned radiance of any representation is inspected, shown and counted") {
-    for (const Represented& represented : kRepresented) {
+    for (const Representation representation : all_representations()) {
         const SceneDescription scene = shipped_scene("cornell");
-        RenderSettings settings = settings_of(represented, scene);
-        if (represented.representation == Representation::SdTree) settings.field.budget_megabytes = 1.0;
+        RenderSettings settings = settings_of(representation, scene);
+        if (representation == Representation::SdTree) settings.field.budget_megabytes = 1.0;
         Session session = make_session(scene, settings, 2);
         render_passes(session, 8);
         const auto volumes = static_cast<std::int32_t>(session.field_status(MethodId::Reinforcement)->volumes);
@@ -166,39 +182,39 @@ TEST_CASE("The learned radiance of any representation is inspected, shown and co
             CHECK(seen.radiance.size() == 64);
             CHECK((seen.bsdf_fraction >= kMinBsdfFraction && seen.bsdf_fraction <= kMaxBsdfFraction));
         }
-        CHECK(largest > represented.largest_sum);
+        CHECK(largest > least_largest_sum(representation));
         CHECK(largest < 1.4);
         const FieldStatus status = *session.field_status(MethodId::Reinforcement);
-        CHECK(status.representation == represented.representation);
-        CHECK(status.network.has_value() == (represented.representation == Representation::Neural));
-        CHECK(status.bytes > fewest_bytes(represented.representation, static_cast<std::size_t>(volumes)));
-        CHECK((represented.representation != Representation::SdTree || static_cast<double>(status.bytes) < 1.0e6));
+        CHECK(status.representation == representation);
+        CHECK(status.network.has_value() == (representation == Representation::Neural));
+        CHECK(status.bytes > fewest_bytes(representation, static_cast<std::size_t>(volumes)));
+        CHECK((representation != Representation::SdTree || static_cast<double>(status.bytes) < 1.0e6));
         check_views(session);
     }
 }
 
 TEST_CASE("The number of volumes with lobes or a network is what the budget holds, that with lobes stays") {
-    for (const Represented& represented : kRepresented) {
-        if (represented.representation == Representation::SdTree) continue;
+    for (const Representation representation : all_representations()) {
+        if (representation == Representation::SdTree) continue;
         const SceneDescription scene = shipped_scene("door");
-        RenderSettings settings = settings_of(represented, scene);
+        RenderSettings settings = settings_of(representation, scene);
         settings.field.volumes = 0;
         settings.field.bins = 16;
         // The network alone has 0.47.
-        const double megabytes = represented.representation == Representation::Neural ? 0.8 : 0.3;
+        const double megabytes = representation == Representation::Neural ? 0.8 : 0.3;
         settings.field.budget_megabytes = megabytes;
         Session session = make_session(scene, settings, 2);
         render_passes(session, 20);
         const FieldStatus status = *session.field_status(MethodId::Reinforcement);
-        CHECK((status.added_volumes == 0 || represented.representation != Representation::Lobes));
+        CHECK((status.added_volumes == 0 || representation != Representation::Lobes));
         CHECK(static_cast<double>(status.bytes) < 1.0e6 * megabytes);
     }
 }
 
 TEST_CASE("A volume of any representation begins anew and learns again") {
-    for (const Represented& represented : kRepresented) {
+    for (const Representation representation : all_representations()) {
         const SceneDescription scene = shipped_scene("cornell");
-        Session session = make_session(scene, settings_of(represented, scene), 2);
+        Session session = make_session(scene, settings_of(representation, scene), 2);
         render_passes(session, 4);
         REQUIRE(mean_radiance_of(session)[3] > 0.0f);
         session.apply(EditForgetVolume{MethodId::Reinforcement, 3});
@@ -210,9 +226,9 @@ TEST_CASE("A volume of any representation begins anew and learns again") {
 
 // The field is frozen, so that all passes sampled what it holds now.
 TEST_CASE("Paths guided by any representation are traced again with all vertices") {
-    for (const Represented& represented : kRepresented) {
+    for (const Representation representation : all_representations()) {
         const SceneDescription scene = shipped_scene("cornell");
-        Session session = make_session(scene, settings_of(represented, scene), 2);
+        Session session = make_session(scene, settings_of(representation, scene), 2);
         render_passes(session, 3);
         session.apply(EditLearning{MethodId::Reinforcement, LearningControl::Freeze});
         session.apply(EditRestart{});

@@ -201,13 +201,13 @@ TEST_CASE("a forgotten volume is as a new one, and all others keep their bits") 
     render_passes(session, 6);
     const HostTables before = tables_of(session);
     const LearnedField field = session.export_field(kLearner);
-    const HostTables fresh = make_tables(field.shape, volume_count(before));
+    const HostTables fresh = make_arrays<HostTables>(field.shape, volume_count(before));
     const std::int32_t volume = brightest_volume(session);
     session.apply(EditForgetVolume{kLearner, volume});
     const HostTables after = tables_of(session);
     std::size_t changed = 0;
-    for_each_table_array([&](const auto& spec) {
-        const std::size_t length = extent_of(spec.extent, field.shape, volume_count(before)) / volume_count(before);
+    for_each_array_of<HostTables>([&](const auto& spec) {
+        const std::size_t length = spec.owner.count(field.shape);
         for (std::size_t i = 0; i < spec.get(after).size(); ++i) {
             const bool is_forgotten = i / std::max<std::size_t>(length, 1) == static_cast<std::size_t>(volume);
             const auto expected = is_forgotten ? spec.get(fresh)[i] : spec.get(before)[i];

@@ -143,7 +143,7 @@ TEST_CASE("The first pass is guided by its own first paths, later ones by whole 
     REQUIRE(session.passes(slot_of(session)) == 0);
     const HostTables published = tables_of(session.export_field(session.settings().method).field);
     CHECK(published.mean_radiance !=
-          make_tables(session.export_field(session.settings().method).shape, 60).mean_radiance);
+          make_arrays<HostTables>(session.export_field(session.settings().method).shape, 60).mean_radiance);
     CHECK(sum(published.visits) + sum(published.pending_count) ==
           session.field_status(session.settings().method)->records);
     // Stopped and resumed, the pass has the same bits.

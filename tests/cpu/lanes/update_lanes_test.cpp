@@ -1,5 +1,5 @@
 // The update in SIMD lanes is the scalar one, bit by bit.
-#include "cpu/learning/volume_update.h"
+#include "cpu/learning/field_update.h"
 #include "tests/cpu/small_room.h"
 #include "tests/support/catch.hpp"
 #include "tests/support/field/random_tables.h"

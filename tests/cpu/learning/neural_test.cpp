@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <functional>
 
-#include "core/fields/reset_tables.h"
+#include "core/fields/field_model.h"
 #include "cpu/learning/neural_network.h"
 #include "tests/support/catch.hpp"
 #include "tests/support/field/neural_fixture.h"
@@ -334,7 +334,7 @@ TEST_CASE("A network that is not finite is given up, and paths are guided by the
         for (float& weight : neural.field.weights) weight = damage;
         neural.record(3);
         neural.update();
-        CHECK(status_of(neural.field).is_lost);
+        CHECK(NeuralModel::network(neural.field).is_lost);
         CHECK_FALSE(damage_of(neural.field).has_value());
         CHECK(std::ranges::all_of(neural.field.average, [](float weight) { return std::isfinite(weight); }));
         const std::uint32_t steps = neural.field.counts[kNetworkSteps];
@@ -373,5 +373,5 @@ TEST_CASE("Volumes of a neural field are divided and forgotten, the network stay
 
 TEST_CASE("The bytes of a neural field are those of its tables, its weights and their means") {
     TestNeural neural(8);
-    CHECK(field_bytes(neural.field) == neural.count() * table_bytes(64) + network_bytes());
+    CHECK(field_bytes(neural.field) == neural.count() * table_bytes(64) + kNetworkBytes);
 }

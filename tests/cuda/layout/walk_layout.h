@@ -99,9 +99,22 @@ PL_HD constexpr auto members(Affine& v) {
     static_assert(sizeof v == 3 * sizeof v.rows[0]);
     return std::tie(v.rows[0], v.rows[1], v.rows[2]);
 }
+PL_HD constexpr auto members(FieldView& v) {
+    const auto all = std::tie(base_of<PlacementView>(v), v.cells, v.light_clusters, v.radiance_unit, v.writers);
+    static_assert(std::tuple_size_v<decltype(all)> == member_count<FieldView>());
+    return all;
+}
+template <template <class> class Learned>
+PL_HD constexpr auto members(TableArrays<Learned, Span>& v) {
+    const auto all =
+        std::tie(base_of<MixtureSums<Learned, Span>>(v), base_of<LightSampleSums<Learned, Span>>(v), v.radiance,
+                 v.visits, v.pending_sum, v.pending_count, v.row_cdf, v.column_cdf, v.mean_radiance, v.change,
+                 v.pending_distance, v.pending_light, v.reach_distance, v.reach_weight, v.inverse_reach);
+    static_assert(std::tuple_size_v<decltype(all)> == member_count<TableArrays<Learned, Span>>());
+    return all;
+}
 PL_HD constexpr auto members(TableView& v) {
-    const auto all = std::tie(base_of<PlacementView>(v), base_of<TableArrays<ConstSpan, Span>>(v), v.cells,
-                              v.light_clusters, v.radiance_unit, v.writers, v.records);
+    const auto all = std::tie(base_of<FieldView>(v), base_of<TableArrays<ConstSpan, Span>>(v), v.records);
     static_assert(std::tuple_size_v<decltype(all)> == member_count<TableView>());
     return all;
 }
@@ -179,8 +192,7 @@ PL_HD inline void walk_parameters(Sink& sink, void (*)(Parameters...)) {
 template <class Sink, int kEntry = 0>
 PL_HD inline void walk_kernels(Sink& sink) {
     if constexpr (kEntry < MethodList::kCount) {
-        if constexpr (!TypeAt<kEntry, MethodList>::kIsForHostAlone)
-            walk_parameters(sink, cuda::PictureKernel<cuda::KernelMethodAt<kEntry>>{});
+        walk_parameters(sink, cuda::PictureKernel<cuda::KernelMethodAt<kEntry>>{});
         walk_kernels<Sink, kEntry + 1>(sink);
     } else {
         walk_parameters(sink, cuda::ProbeKernel{});

@@ -26,7 +26,7 @@ struct TestField {
             volumes.normals.push_back(normal);
         }
         volumes.kd_nodes = build_kd_tree(view_of(std::as_const(volumes.sites)));
-        tables = make_tables(shape, normals.size());
+        tables = make_arrays<HostTables>(shape, normals.size());
     }
 
     TableField view() { return field_view(shape, volumes, tables); }

@@ -1,7 +1,7 @@
 // A mixture of lobes that is trained by hand.
 #pragma once
 
-#include "core/fields/lobe_update.h"
+#include "core/fields/mixture_fit.h"
 #include "core/fields/place_volumes.h"
 #include "tests/support/scenes/shapes.h"
 
@@ -26,7 +26,7 @@ struct TestLobes {
         volumes.sites = {point_at(Vec3f{0.0f})};
         volumes.normals = {volumes.sites[0].geometric_normal};
         volumes.kd_nodes = build_kd_tree(view_of(std::as_const(volumes.sites)));
-        lobes = make_lobes(shape, 1);
+        lobes = make_arrays<HostLobes>(shape, 1);
     }
 
     LobeField view() { return field_view(shape, volumes, lobes); }
@@ -46,7 +46,7 @@ struct TestLobes {
         field.record({{field.entry_of(location, direction), 0.3f / sample.pdf_sa, sample.distance}, sample.target},
                      true);
     }
-    void update(int threads = 1) { update_lobes(shape, lobes, threads); }
+    void update(int threads = 1) { LobeModel::update(shape, volumes, lobes, threads); }
 
     friend bool operator==(const TestLobes& a, const TestLobes& b) {
         bool same = true;

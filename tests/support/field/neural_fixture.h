@@ -3,8 +3,8 @@
 
 #include "core/fields/neural_model.h"
 #include "core/fields/place_volumes.h"
+#include "cpu/learning/field_update.h"
 #include "cpu/learning/neural_update.h"
-#include "cpu/learning/volume_update.h"
 #include "tests/support/scenes/shapes.h"
 
 namespace pl::test {
@@ -34,7 +34,7 @@ struct TestNeural {
             volumes.normals.push_back(site.geometric_normal);
         }
         volumes.kd_nodes = build_kd_tree(view_of(std::as_const(volumes.sites)));
-        field = make_neural(shape, volumes.sites.size());
+        field = make_arrays<HostNeural>(shape, volumes.sites.size());
     }
 
     std::uint32_t count() const { return static_cast<std::uint32_t>(volumes.sites.size()); }

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/fields/place_volumes.h"
-#include "core/fields/sd_tree_update.h"
+#include "core/fields/sd_tree_model.h"
 #include "tests/support/scenes/shapes.h"
 
 namespace pl::test {
@@ -31,7 +31,7 @@ struct TestTree {
         volumes.sites = {site};
         volumes.normals = {site.geometric_normal};
         volumes.kd_nodes = build_kd_tree(view_of(std::as_const(volumes.sites)));
-        tree = make_sd_tree(shape, 1);
+        tree = make_arrays<HostSdTree>(shape, 1);
     }
 
     SdTreeField view() { return field_view(shape, volumes, tree); }
@@ -51,7 +51,7 @@ struct TestTree {
         const DirectionSample direction{.wi = sample.wi, .pdf_sa = sample.pdf_sa, .bsdf_pdf_sa = 0.3f, .bin = bin};
         field.record({{field.entry_of(location, direction), 0.3f / sample.pdf_sa}, sample.target}, true);
     }
-    void update(int threads = 1) { update_sd_tree(shape, tree, threads); }
+    void update(int threads = 1) { SdTreeModel::update(shape, volumes, tree, threads); }
 
     friend bool operator==(const TestTree& a, const TestTree& b) {
         bool same = true;

@@ -54,7 +54,7 @@ inline LearnedField small_field() {
                                     .lookup_misses = 7,
                                     .precomputed_slices = 4,
                                     .next_probe = 11}};
-    HostTables tables = make_tables(field.shape, kVolumes);
+    HostTables tables = make_arrays<HostTables>(field.shape, kVolumes);
     std::mt19937 random(1);
     const auto uniform = [&] { return std::uniform_real_distribution<float>(0.0f, 1.0f)(random); };
     for (float& radiance : tables.radiance) radiance = 10.0f * uniform();

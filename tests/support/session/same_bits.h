@@ -20,35 +20,42 @@ bool same_arrays(const Arrays& a, const Arrays& b) {
     return same;
 }
 inline bool same_bits(const HostTables& a, const HostTables& b) { return same_arrays(a, b); }
-inline bool same_bits(const HostSdTree& a, const HostSdTree& b) { return same_arrays(a, b); }
-inline bool same_bits(const HostLobes& a, const HostLobes& b) { return same_arrays(a, b); }
-inline bool same_bits(const HostNeural& a, const HostNeural& b) { return same_arrays(a, b); }
+
+/// Calls fn(array of a, array of b) for the arrays of fields of one representation. Returns whether they have one.
+template <class Fn>
+bool zip_alike(const HostField& a, const HostField& b, Fn&& fn) {
+    return std::visit(
+        [&](const auto& x, const auto& y) {
+            constexpr bool kAlike = std::is_same_v<decltype(x), decltype(y)>;
+            if constexpr (kAlike) zip(x, y, fn);
+            return kAlike;
+        },
+        a, b);
+}
+inline bool same_bits(const HostField& a, const HostField& b) {
+    bool same = true;
+    return zip_alike(a, b, [&](const auto& x, const auto& y) { same = same && same_bits(x, y); }) && same;
+}
 
 inline bool same_events(const PassCounters& a, const PassCounters& b) {
     static_assert(std::has_unique_object_representations_v<PassCounters>);
     return std::memcmp(&a, &b, sizeof a) == 0;
 }
 
-/// A film with its statistics, and the arrays of its method, by their representation.
+/// A film with its statistics, and the arrays of its method: tables, or another representation.
 struct State {
     Snapshot snapshot;
     HostTables tables;
-    HostSdTree tree{};
-    HostLobes lobes{};
-    HostNeural neural{};
+    HostField other{};
 };
 
 inline State state_of(Session& session, FilmSlot slot) {
     HostField field = session.backend_access().download_field(slot.method);
     State state{session.snapshot_with_halves(slot), {}};
-    if (auto* tree = std::get_if<HostSdTree>(&field))
-        state.tree = std::move(*tree);
-    else if (auto* lobes = std::get_if<HostLobes>(&field))
-        state.lobes = std::move(*lobes);
-    else if (auto* neural = std::get_if<HostNeural>(&field))
-        state.neural = std::move(*neural);
-    else
+    if (std::holds_alternative<HostTables>(field))
         state.tables = tables_of(std::move(field));
+    else
+        state.other = std::move(field);
     return state;
 }
 inline State state_of(Session& session) { return state_of(session, slot_of(session)); }
@@ -61,8 +68,7 @@ inline bool same_film(const State& a, const State& b) {
 }
 inline bool same_state(const State& a, const State& b) {
     return same_film(a, b) && same_events(a.snapshot.counters, b.snapshot.counters) &&
-           same_bits(a.tables, b.tables) && same_bits(a.tree, b.tree) && same_bits(a.lobes, b.lobes) &&
-           same_bits(a.neural, b.neural);
+           same_bits(a.tables, b.tables) && same_bits(a.other, b.other);
 }
 
 }  // namespace pl::test

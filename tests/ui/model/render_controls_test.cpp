@@ -92,6 +92,18 @@ TEST_CASE("Render controls: an SD-tree is chosen on the CPU, and keeps the other
     CHECK(model.render().settings().field.representation == Representation::Neural);
 }
 
+TEST_CASE("Render controls: every representation is chosen") {
+    FileBench bench;
+    ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
+    REQUIRE(bench.run_until(model, [&] { return has_frame(model); }));
+    for (const ChoiceInfo<Representation>& info : kRepresentations) {
+        FieldSettings field = model.render().settings().field;
+        field.representation = info.value;
+        model.render().set_field(field);
+        CHECK(model.render().settings().field.representation == info.value);
+    }
+}
+
 TEST_CASE("Render controls: a failure of a back end is reported, and the CPU takes over") {
     FileBench bench;
     bench.options.first_backend = "cuda";

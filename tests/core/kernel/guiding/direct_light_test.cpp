@@ -13,7 +13,7 @@ namespace {
 struct Field : TestField {
     Field() : TestField(4) {
         shape.light_clusters = 4;
-        tables = make_tables(shape, 1);
+        tables = make_arrays<HostTables>(shape, 1);
     }
     void sample(std::uint32_t cluster, float irradiance, std::uint32_t count) {
         for (std::uint32_t i = 0; i < count; ++i)

@@ -16,7 +16,7 @@ constexpr float kExtent = 10.0f;
 struct Field : TestField {
     Field() : TestField(4) {
         shape.extent = kExtent;
-        tables = make_tables(shape, 1);
+        tables = make_arrays<HostTables>(shape, 1);
         tables.mean_radiance[0] = 1.0f;
     }
     void add(float weight, float distance) { record_reach(view(), 0, weight, distance); }

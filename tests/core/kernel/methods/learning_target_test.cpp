@@ -3,6 +3,7 @@
 
 #include <type_traits>
 
+#include "core/fields/field_kernels.h"
 #include "core/kernel/guiding/update_volume.h"
 #include "tests/support/catch.hpp"
 #include "tests/support/field/field_fixture.h"
@@ -58,7 +59,8 @@ Observation meeting(float emitted, float share = 1.0f, float albedo = 0.5f) {
 TEST_CASE("Each target is served by its integrator, passes that train nothing by one whose field stays constant") {
     const auto serving = []<class F>(std::type_identity<F>, MethodId method, LearningTarget target, bool trains) {
         int served = -1;
-        with_method_kernel<F>(method, {.target = target}, trains, [&]<int kEntry>() { served = kEntry; });
+        with_method_kernel<F, HostMethodList>(method, {.target = target}, trains,
+                                              [&]<int kEntry>() { served = kEntry; });
         return served;
     };
     constexpr std::type_identity<TableField> kTable;
