@@ -13,7 +13,7 @@
 #include "core/io/mtl_surface.h"
 #include "core/kernel/shading/absorption.h"
 #include "core/scene/anisotropy.h"
-#include "core/scene/glass.h"
+#include "core/scene/surface_info.h"
 
 namespace pl {
 namespace {

@@ -29,12 +29,33 @@ enum class Feature : std::uint32_t {
     Instances = 1u << 17,           ///< meshes that are stored once and shown many times
 };
 
-inline constexpr Feature kAllFeatures[] = {Feature::SmoothNormals, Feature::Environment, Feature::NextEventEstimation,
-                                           Feature::Specular,      Feature::Rough,       Feature::Plastic,
-                                           Feature::Textures,      Feature::CutOuts,     Feature::EnvironmentMap,
-                                           Feature::ThinLens,      Feature::ManyLights,  Feature::NormalMaps,
-                                           Feature::DeltaLights,   Feature::Absorption,  Feature::ThinPanes,
-                                           Feature::Blends,        Feature::Anisotropy,  Feature::Instances};
+/// An effect and its stable name, for `info`, `--stats` and `--force-effects`. Converts to the effect.
+struct FeatureInfo {
+    Feature value;
+    const char* name;
+
+    constexpr operator Feature() const { return value; }
+};
+inline constexpr FeatureInfo kAllFeatures[] = {
+    {Feature::SmoothNormals, "smooth-normals"},
+    {Feature::Environment, "environment"},
+    {Feature::NextEventEstimation, "next-event-estimation"},
+    {Feature::Specular, "specular"},
+    {Feature::Rough, "rough"},
+    {Feature::Plastic, "plastic"},
+    {Feature::Textures, "textures"},
+    {Feature::CutOuts, "cut-outs"},
+    {Feature::EnvironmentMap, "environment-map"},
+    {Feature::ThinLens, "thin-lens"},
+    {Feature::ManyLights, "many-lights"},
+    {Feature::NormalMaps, "normal-maps"},
+    {Feature::DeltaLights, "delta-lights"},
+    {Feature::Absorption, "absorption"},
+    {Feature::ThinPanes, "thin-panes"},
+    {Feature::Blends, "blends"},
+    {Feature::Anisotropy, "anisotropy"},
+    {Feature::Instances, "instances"},
+};
 
 /// A set of features; usable as a template argument.
 struct FeatureSet {
@@ -59,6 +80,9 @@ PL_HD constexpr FeatureSet features(Features... list) {
 
 /// Effects of surfaces that have other lobes than Lambert's.
 inline constexpr FeatureSet kLobeFeatures = features(Feature::Specular, Feature::Rough, Feature::Plastic);
+
+/// Effects that decide the BSDF of a surface point; sets that differ in others alone share its functions.
+inline constexpr FeatureSet kSurfaceFeatures = kLobeFeatures.with(features(Feature::ThinPanes, Feature::Anisotropy));
 
 /// Effects that decide the place of a surface point.
 inline constexpr FeatureSet kPlaceFeatures = features(Feature::Instances);

@@ -205,11 +205,11 @@ TEST_CASE("No direction gives anything that is not finite") {
                     if (kind == SurfaceKind::Pane && roughness > 0.0f) continue;
                     const LobeSurface surface(rough(kind, roughness),
                                               Vec3f{kind == SurfaceKind::Plastic ? 0.5f : 0.0f});
-                    const LayeredBsdf bsdf = surface.from(glm::normalize(Vec3f{1.0f - height, 0.0f, height}), front);
+                    const auto bsdf = surface.from(glm::normalize(Vec3f{1.0f - height, 0.0f, height}), front);
                     const SurfacePoint point = LobeSurface::point(front);
                     for (int i = 0; i < 200; ++i) {
                         const Vec2f u = i == 0 ? Vec2f{0.0f} : (i == 1 ? Vec2f{0.5f} : random.square());
-                        const DeltaDirection delta = bsdf.sample_delta<kEveryFeature>(point, random.next());
+                        const DeltaDirection delta = bsdf.sample_delta(point, random.next());
                         CHECK((roughness > 0.0f || is_valid_radiance(delta.weight)));
                         if (roughness == 0.0f && kind != SurfaceKind::Plastic) continue;
                         const Vec3f wi = bsdf.sample(point, u, random.next());
@@ -233,7 +233,7 @@ TEST_CASE("A thin pane reflects and lets through what its two faces do together,
                 lobes.transmission = Vec3f{0.25f};
                 const LobeSurface pane(lobes);
                 const Vec3f wo = tilted(cos_o);
-                const LayeredBsdf bsdf = pane.from(wo, front);
+                const auto bsdf = pane.from(wo, front);
                 CHECK(bsdf.delta_probability() == 1.0f);
                 CHECK(bsdf.is_specular());
                 const double face = static_cast<double>(fresnel_dielectric(cos_o, ior));
@@ -243,13 +243,13 @@ TEST_CASE("A thin pane reflects and lets through what its two faces do together,
                 CAPTURE(ior, cos_o, front, reflected);
                 const SurfacePoint point = LobeSurface::point(front);
                 const auto share = static_cast<float>(reflected);
-                const DeltaDirection mirrored = bsdf.sample_delta<kEveryFeature>(point, 0.999f * share);
+                const DeltaDirection mirrored = bsdf.sample_delta(point, 0.999f * share);
                 if (share > 0.0f) {
                     CHECK(mirrored.weight == lobes.specular);
                     CHECK(mirrored.wi.z == Approx(wo.z).epsilon(1e-5));
                     CHECK(mirrored.wi.x == Approx(-wo.x).margin(1e-6));
                 }
-                const DeltaDirection straight = bsdf.sample_delta<kEveryFeature>(point, 1.001f * share + 1e-7f);
+                const DeltaDirection straight = bsdf.sample_delta(point, 1.001f * share + 1e-7f);
                 CHECK(straight.weight == lobes.transmission);
                 CHECK(glm::length(straight.wi + wo) < 1e-6f);
             }
