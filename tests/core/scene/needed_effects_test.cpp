@@ -3,6 +3,7 @@
 #include "core/scene/needed_effects.h"
 
 #include "core/scene/pack_scene.h"
+#include "core/scene/surface_info.h"
 #include "tests/support/catch.hpp"
 #include "tests/support/scenes/shapes.h"
 
@@ -11,16 +12,13 @@ using namespace pl::test;
 
 namespace {
 
-constexpr SurfaceKind kKinds[] = {SurfaceKind::Diffuse, SurfaceKind::Conductor, SurfaceKind::Dielectric,
-                                  SurfaceKind::Plastic, SurfaceKind::Pane};
-
 /// A box of a few materials, each diffuse two times out of three.
 SceneDescription random_scene(Uniforms& random) {
     SceneDescription scene;
     const std::uint32_t materials = 1 + random.below(3);
     for (std::uint32_t i = 0; i < materials; ++i) {
         MaterialDescription material = gray();
-        if (random.below(3) == 0) material.kind = kKinds[random.below(std::size(kKinds))];
+        if (random.below(3) == 0) material.kind = kSurfaces[random.below(kSurfaces.size())].choice.value;
         if (material.kind == SurfaceKind::Dielectric && random.below(2) == 0) material.absorption = glm::vec3(1.0f);
         // One table for all, so that packing stays quick.
         if (material.kind == SurfaceKind::Conductor && random.below(2) == 0) material.roughness = 0.5f;

@@ -197,21 +197,20 @@ TEST_CASE("Directions that a surface cannot send light to have no cosine") {
 TEST_CASE("No direction gives anything that is not finite") {
     Uniforms random(21);
     const float heights[] = {0.0f, 1e-30f, 1e-7f, 1e-3f, 0.5f, 1.0f};
-    for (const SurfaceKind kind :
-         {SurfaceKind::Conductor, SurfaceKind::Plastic, SurfaceKind::Dielectric, SurfaceKind::Pane})
+    for (const SurfaceInfo& info : kSurfaces)
         for (const float roughness : {0.0f, 0.03f, 0.3f, 1.0f})
             for (const float height : heights)
                 for (const bool front : {true, false}) {
-                    if (kind == SurfaceKind::Pane && roughness > 0.0f) continue;
-                    const LobeSurface surface(rough(kind, roughness),
-                                              Vec3f{kind == SurfaceKind::Plastic ? 0.5f : 0.0f});
+                    if (info.choice.value == SurfaceKind::Pane && roughness > 0.0f) continue;
+                    const LobeSurface surface(rough(info.choice.value, roughness),
+                                              Vec3f{info.has(material_parameter::kAlbedo) ? 0.5f : 0.0f});
                     const auto bsdf = surface.from(glm::normalize(Vec3f{1.0f - height, 0.0f, height}), front);
                     const SurfacePoint point = LobeSurface::point(front);
                     for (int i = 0; i < 200; ++i) {
                         const Vec2f u = i == 0 ? Vec2f{0.0f} : (i == 1 ? Vec2f{0.5f} : random.square());
                         const DeltaDirection delta = bsdf.sample_delta(point, random.next());
                         CHECK((roughness > 0.0f || is_valid_radiance(delta.weight)));
-                        if (roughness == 0.0f && kind != SurfaceKind::Plastic) continue;
+                        if (bsdf.delta_probability() == 1.0f) continue;
                         const Vec3f wi = bsdf.sample(point, u, random.next());
                         CHECK((is_black(wi) || std::fabs(glm::length(wi) - 1.0f) < 1e-4f));
                         const float pdf_sa = bsdf.pdf_sa(point, wi);
