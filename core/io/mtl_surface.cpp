@@ -85,7 +85,7 @@ glm::vec3 specular_of(const MtlEntry& entry, SurfaceKind kind) {
     if (kind == SurfaceKind::Plastic && has_ks) {
         return *entry.ks / strongest(entry.ks);  // the tint only: Fresnel's equations give the reflectance
     }
-    return glm::vec3(1.0f);
+    return kind == SurfaceKind::Velvet ? entry.ks.value_or(glm::vec3(1.0f)) : glm::vec3(1.0f);
 }
 
 glm::vec3 albedo_of(const MtlEntry& entry, SurfaceKind kind) {

@@ -7,7 +7,9 @@
 
 #include "core/base/parallel_chunks.h"
 #include "core/kernel/shading/fresnel.h"
+#include "core/kernel/shading/velvet.h"
 #include "core/scene/facet_albedo.h"
+#include "core/scene/piecewise_rule.h"
 
 namespace pl {
 namespace {
@@ -135,6 +137,28 @@ std::vector<float> glass_albedo(float eta) {
     return tables.get(eta, [eta] {
         return facet_table(FacetLight::Scattered, static_cast<double>(eta), [](float) { return 1.0f; });
     });
+}
+
+std::vector<float> sheen_albedo() {
+    // Rows below the least roughness serve the interpolation alone.
+    static const std::vector<float> table = make_table([](double roughness, double cosine) {
+        constexpr double kLeastRow = 0.2;
+        const SheenFibers fibers(static_cast<float>(std::max(roughness, kLeastRow)));
+        const Vec3f wo{Vec3d{std::sqrt(1.0 - cosine * cosine), 0.0, cosine}};
+        static const QuadratureRule<16> heights = make_piece_rule<16>(true, false);
+        static const QuadratureRule<12> azimuths = make_piece_rule<12>(false, false);
+        double albedo = 0.0;
+        for (std::size_t h = 0; h < 16; ++h)
+            for (std::size_t a = 0; a < 12; ++a) {
+                const double z = heights.at[h];
+                const double radius = std::sqrt(1.0 - z * z);
+                const double azimuth = glm::pi<double>() * azimuths.at[a];
+                const Vec3f wi{Vec3d{radius * std::cos(azimuth), radius * std::sin(azimuth), z}};
+                albedo += heights.weight[h] * azimuths.weight[a] * static_cast<double>(fibers.reflection(wo, wi));
+            }
+        return glm::two_pi<double>() * albedo;
+    });
+    return table;
 }
 
 }  // namespace pl

@@ -147,6 +147,12 @@ inline constexpr SurfaceParameter kOfDielectric[] = {
      .color_tip = "Color of the light that the glass takes away."},
 };
 inline constexpr SurfaceParameter kOfPlastic[] = {kColor, kReflected, kRoughness, kIndex};
+inline constexpr SurfaceParameter kOfVelvet[] = {
+    kColor,
+    {&material_parameter::kSpecular, "Sheen", "Reflectance of the fibers, which shines towards the horizon."},
+    {&material_parameter::kRoughness, "Roughness",
+     "Spread of the fibers. 1: the sheen is wide; 0.26 and less: a rim."},
+};
 inline constexpr SurfaceParameter kOfPane[] = {kReflected, kTransmitted, kIndex};
 
 inline std::vector<float> tables_of_glass(float ior) {
@@ -192,6 +198,12 @@ inline constexpr auto kSurfaces = std::to_array<SurfaceInfo>({
      .transmits = true,
      .parameters = surface_parameter::kOfPane,
      .text = "thin pane of ior {ior}, transmits {transmission}"},
+    {.choice = {SurfaceKind::Velvet, "velvet", "Velvet", "a diffuse base under fibers, the sheen of cloth"},
+     .effects = features(Feature::Velvet),
+     .tables = [](float) { return sheen_albedo(); },
+     .has_smooth_tables = true,
+     .parameters = surface_parameter::kOfVelvet,
+     .text = "reflects {albedo} under a sheen of {specular}, roughness {roughness}"},
 });
 
 template <>

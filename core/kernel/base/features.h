@@ -27,6 +27,7 @@ enum class Feature : std::uint32_t {
     Blends = 1u << 15,              ///< surfaces of two materials, chosen at random by their shares
     Anisotropy = 1u << 16,          ///< facets of rough metals that are wider in one direction than in the other
     Instances = 1u << 17,           ///< meshes that are stored once and shown many times
+    Velvet = 1u << 18,              ///< a sheen of fibers over a Lambert base
 };
 
 /// An effect and its stable name, for `info`, `--stats` and `--force-effects`. Converts to the effect.
@@ -55,6 +56,7 @@ inline constexpr FeatureInfo kAllFeatures[] = {
     {Feature::Blends, "blends"},
     {Feature::Anisotropy, "anisotropy"},
     {Feature::Instances, "instances"},
+    {Feature::Velvet, "velvet"},
 };
 
 /// A set of features; usable as a template argument.
@@ -82,7 +84,8 @@ PL_HD constexpr FeatureSet features(Features... list) {
 inline constexpr FeatureSet kLobeFeatures = features(Feature::Specular, Feature::Rough, Feature::Plastic);
 
 /// Effects that decide the BSDF of a surface point; sets that differ in others alone share its functions.
-inline constexpr FeatureSet kSurfaceFeatures = kLobeFeatures.with(features(Feature::ThinPanes, Feature::Anisotropy));
+inline constexpr FeatureSet kSurfaceFeatures =
+    kLobeFeatures.with(features(Feature::ThinPanes, Feature::Anisotropy, Feature::Velvet));
 
 /// Effects that decide the place of a surface point.
 inline constexpr FeatureSet kPlaceFeatures = features(Feature::Instances);

@@ -9,6 +9,7 @@
 #include "core/kernel/shading/lambert.h"
 #include "core/kernel/shading/plastic.h"
 #include "core/kernel/shading/textured.h"
+#include "core/kernel/shading/velvet.h"
 
 namespace pl {
 
@@ -81,7 +82,8 @@ public:
         case SurfaceKind::Diffuse:
         case SurfaceKind::Conductor:
         case SurfaceKind::Dielectric:
-        case SurfaceKind::Pane: break;
+        case SurfaceKind::Pane:
+        case SurfaceKind::Velvet: break;
         }
         return 1.0f;
     }
@@ -90,7 +92,8 @@ public:
         const Vec3f up{0.0f, 0.0f, 1.0f};
         DeltaDirection delta{reflect_at(wo_, up), Vec3f{0.0f}};
         switch (lobes_.kind) {
-        case SurfaceKind::Diffuse: break;
+        case SurfaceKind::Diffuse:
+        case SurfaceKind::Velvet: break;
         case SurfaceKind::Conductor:
             delta.weight = fresnel_conductor(wo_.z, lobes_.specular, lobes_.edge_loss());
             break;
@@ -129,6 +132,9 @@ public:
         case SurfaceKind::Conductor: return conductor().eval(frame_.to_local(wi));
         case SurfaceKind::Dielectric: return dielectric().eval(frame_.to_local(wi));
         case SurfaceKind::Plastic: return plastic().eval(frame_.to_local(wi));
+        case SurfaceKind::Velvet:
+            if constexpr (F.has(Feature::Velvet)) return velvet().eval(frame_.to_local(wi));
+            break;
         case SurfaceKind::Pane: break;
         }
         return Vec3f{0.0f};
@@ -139,6 +145,9 @@ public:
         case SurfaceKind::Conductor: return conductor().pdf_sa(frame_.to_local(wi));
         case SurfaceKind::Dielectric: return dielectric().pdf_sa(frame_.to_local(wi));
         case SurfaceKind::Plastic: return plastic().pdf_sa(frame_.to_local(wi));
+        case SurfaceKind::Velvet:
+            if constexpr (F.has(Feature::Velvet)) return velvet().pdf_sa(frame_.to_local(wi));
+            break;
         case SurfaceKind::Pane: break;
         }
         return 0.0f;
@@ -151,6 +160,9 @@ public:
         case SurfaceKind::Conductor: return to_world(conductor().sample(u, choice));
         case SurfaceKind::Dielectric: return to_world(dielectric().sample(u, choice));
         case SurfaceKind::Plastic: return to_world(plastic().sample(u, choice));
+        case SurfaceKind::Velvet:
+            if constexpr (F.has(Feature::Velvet)) return to_world(velvet().sample(u, choice));
+            break;
         case SurfaceKind::Pane: break;
         }
         return Vec3f{0.0f};
@@ -177,7 +189,8 @@ private:
     /// Whether a delta lobe is among the lobes.
     PL_HD bool smooth() const {
         switch (lobes_.kind) {
-        case SurfaceKind::Diffuse: return false;
+        case SurfaceKind::Diffuse:
+        case SurfaceKind::Velvet: return false;
         case SurfaceKind::Conductor:
         case SurfaceKind::Dielectric:
         case SurfaceKind::Plastic:
@@ -189,7 +202,8 @@ private:
     PL_HD bool is_wide() const {
         switch (lobes_.kind) {
         case SurfaceKind::Diffuse:
-        case SurfaceKind::Plastic: return true;
+        case SurfaceKind::Plastic:
+        case SurfaceKind::Velvet: return true;
         case SurfaceKind::Conductor:
         case SurfaceKind::Dielectric:
         case SurfaceKind::Pane: break;
@@ -201,6 +215,9 @@ private:
         case SurfaceKind::Diffuse:
         case SurfaceKind::Pane: break;
         case SurfaceKind::Plastic: return plastic().reflected_by_coat(wo_.z);
+        case SurfaceKind::Velvet:
+            if constexpr (F.has(Feature::Velvet)) return velvet().reflected_by_fibers(wo_.z);
+            break;
         case SurfaceKind::Conductor:
         case SurfaceKind::Dielectric:
             if (smooth()) break;
@@ -236,6 +253,10 @@ private:
     PL_HD Plastic plastic() const {
         return {ggx(), reflectance_, lobes_.specular, eta_, {tables_}, lobes_.roughness, wo_, returned_};
     }
+    PL_HD Velvet velvet() const {
+        const float roughness = max_of(lobes_.roughness, SheenFibers::kLeastRoughness);
+        return {reflectance_, lobes_.specular, roughness, {tables_}, wo_, returned_};
+    }
     PL_HD Vec3f directional_albedo() const {
         switch (lobes_.kind) {
         case SurfaceKind::Diffuse: return reflectance_;
@@ -244,6 +265,9 @@ private:
         case SurfaceKind::Dielectric:
         case SurfaceKind::Pane: return glm::max(lobes_.specular, lobes_.transmission);
         case SurfaceKind::Plastic: return plastic().albedo();
+        case SurfaceKind::Velvet:
+            if constexpr (F.has(Feature::Velvet)) return velvet().albedo();
+            break;
         }
         return Vec3f{0.0f};
     }

@@ -54,6 +54,7 @@ FeatureSet needed_by_look(const SceneDescription& scene) {
         set = set.with(m.roughness > 0.0f ? Feature::Rough : Feature::Specular);
         if (m.kind == SurfaceKind::Plastic) set = set.with(Feature::Plastic);
         if (m.kind == SurfaceKind::Pane) set = set.with(Feature::ThinPanes);
+        if (m.kind == SurfaceKind::Velvet) set = set.with(Feature::Velvet);
         if (m.absorbs()) set = set.with(Feature::Absorption);
     }
     if (scene.environment != glm::vec3{0.0f}) set = set.with(Feature::Environment);
@@ -81,7 +82,7 @@ TEST_CASE("The scan of a scene finds the effects of all its materials") {
     // All but light samples, images, the lens and instances, which the random scenes have none of.
     CHECK(seen == features(Feature::SmoothNormals, Feature::Environment, Feature::Specular, Feature::Rough,
                            Feature::Plastic, Feature::CutOuts, Feature::EnvironmentMap, Feature::Absorption,
-                           Feature::ThinPanes, Feature::Blends, Feature::Anisotropy)
+                           Feature::ThinPanes, Feature::Blends, Feature::Anisotropy, Feature::Velvet)
                       .bits);
 }
 
