@@ -1,4 +1,5 @@
 // `pathlight info`: the contents of a scene, the effects that it needs and the kernel that serves it.
+#include <fmt/args.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -7,7 +8,6 @@
 #include "app/open_scene.h"
 #include "app/parse_values.h"
 #include "core/io/camera_file.h"
-#include "core/io/surface_names.h"
 #include "core/scene/default_light.h"
 #include "core/scene/effect_reasons.h"
 #include "core/scene/instances.h"
@@ -15,6 +15,7 @@
 #include "core/scene/pack_scene.h"
 #include "core/scene/punctual_lights.h"
 #include "core/scene/scene_hash.h"
+#include "core/scene/surface_info.h"
 #include "core/session/session.h"
 
 namespace pl {
@@ -34,16 +35,6 @@ std::vector<Effect> effects_of(FeatureSet needed, const SceneDescription& scene)
     return effects;
 }
 
-std::string finish_text(float roughness) {
-    return roughness == 0.0f ? "smooth" : fmt::format("roughness {}", print_float(roughness));
-}
-
-std::string grain_text(const MaterialDescription& material) {
-    if (!material.is_anisotropic()) return "";
-    return fmt::format(", anisotropy {} at {} degrees", print_float(material.anisotropy),
-                       print_float(material.rotation_deg));
-}
-
 std::string opacity_text(const MaterialDescription& material) {
     return material.opacity < 1.0f ? fmt::format(", opacity {}", print_float(material.opacity)) : "";
 }
@@ -56,25 +47,18 @@ std::string blend_text(const SceneDescription& scene, const MaterialDescription&
 }
 
 /// The light that a material sends back, and how.
-std::string surface_text(const MaterialDescription& material) {
-    switch (material.kind) {
-    case SurfaceKind::Diffuse: break;
-    case SurfaceKind::Conductor:
-        return fmt::format("metal, reflects {}, {}{}", print_vector(material.specular),
-                           finish_text(material.roughness), grain_text(material));
-    case SurfaceKind::Dielectric:
-        return fmt::format(
-            "glass of ior {}, transmits {}, {}{}", print_float(material.ior), print_vector(material.transmission),
-            finish_text(material.roughness),
-            material.absorbs() ? fmt::format(", absorbs {} per length", print_vector(material.absorption)) : "");
-    case SurfaceKind::Pane:
-        return fmt::format("thin pane of ior {}, transmits {}", print_float(material.ior),
-                           print_vector(material.transmission));
-    case SurfaceKind::Plastic:
-        return fmt::format("reflects {} under a coat of ior {}, {}", print_vector(material.albedo),
-                           print_float(material.ior), finish_text(material.roughness));
-    }
-    return fmt::format("reflects {}", print_vector(material.albedo));
+std::string surface_text(const MaterialDescription& m) {
+    fmt::dynamic_format_arg_store<fmt::format_context> values;
+    const auto add = [&](const char* name, const std::string& text) { values.push_back(fmt::arg(name, text)); };
+    for (const MaterialParameter* parameter : kMaterialParameters)
+        add(parameter->name,
+            parameter->color != nullptr ? print_vector(m.*parameter->color) : print_float(m.*parameter->number));
+    add("finish", m.roughness == 0.0f ? "smooth" : "roughness " + print_float(m.roughness));
+    add("grain", m.is_anisotropic() ? fmt::format(", anisotropy {} at {} degrees", print_float(m.anisotropy),
+                                                  print_float(m.rotation_deg))
+                                    : "");
+    add("absorbed", m.absorbs() ? fmt::format(", absorbs {} per length", print_vector(m.absorption)) : "");
+    return fmt::vformat(surface_info(m.kind).text, values);
 }
 
 /// The content of the output.

@@ -58,9 +58,10 @@ if(PL_SANITIZE)
     endif()
 endif()
 
+# A switch over an enumeration that misses a value is no warning but an error: of a kind of surface it would be a wrong picture.
 add_library(pl_warnings INTERFACE)
 target_compile_options(pl_warnings INTERFACE
-    $<$<COMPILE_LANGUAGE:CXX>:-Wall;-Wextra;-Wpedantic;-Wshadow;-Wconversion>
+    $<$<COMPILE_LANGUAGE:CXX>:-Wall;-Wextra;-Wpedantic;-Wshadow;-Wconversion;-Werror=switch>
     $<$<AND:$<COMPILE_LANGUAGE:CXX>,$<BOOL:${PL_WERROR}>>:-Werror>)
 
 # pl_add_library(NAME [LEVEL]): a static library of this project; add sources by target_sources(). Its first source is the

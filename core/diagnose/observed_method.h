@@ -48,9 +48,9 @@ struct Observed : M {
         choices->samples_field = false;
         return choices->direction = M::sample_direction(vertex, surface, numbers);
     }
-    template <class Facets>
-    DirectionSample sample_direction(const Vertex& vertex, const SurfacePoint& surface,
-                                     const LayeredBsdfOf<Facets>& bsdf, const ScatterNumbers& numbers) const {
+    template <FeatureSet B>
+    DirectionSample sample_direction(const Vertex& vertex, const SurfacePoint& surface, const LayeredBsdf<B>& bsdf,
+                                     const ScatterNumbers& numbers) const {
         choices->samples_field = false;
         return choices->direction = M::sample_direction(vertex, surface, bsdf, numbers);
     }

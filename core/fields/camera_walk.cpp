@@ -23,7 +23,7 @@ void walk_path(const SceneView& scene, Ray ray, const Rng& rng, std::vector<Surf
         const Hit hit = closest_solid_hit<kWalkEffects>(scene, intersector, ray);
         if (!hit.found()) return;
         const SurfacePoint point = make_surface_point<kPlaceFeatures>(scene, hit, -ray.direction);
-        const LayeredBsdf bsdf = make_bsdf<kWalkEffects>(scene, point, hit_weights(hit), -ray.direction);
+        const Bsdf<kWalkEffects> bsdf = make_bsdf<kWalkEffects>(scene, point, hit_weights(hit), -ray.direction);
         if (!bsdf.scatters()) return;
         if (!bsdf.is_specular()) points.push_back(point);
         const Vec3f wi = leave_surface(point, bsdf, rng.draw(vertex, Purpose::Placement));

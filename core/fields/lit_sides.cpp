@@ -129,7 +129,7 @@ private:
             if (!hit.found()) return;
             const std::uint32_t surface = surfaces_.of_primitive(hit.primitive);
             const SurfacePoint point = make_surface_point<kPlaceFeatures>(view_, hit, -ray.direction);
-            const LayeredBsdf bsdf = make_bsdf<kWalkEffects>(view_, point, hit_weights(hit), -ray.direction);
+            const Bsdf<kWalkEffects> bsdf = make_bsdf<kWalkEffects>(view_, point, hit_weights(hit), -ray.direction);
             if (!bsdf.scatters()) return;
             if (surface != kNoSurface) count(point.front ? arrivals_[surface].front : arrivals_[surface].back);
             ray = spawn_ray(point, leave_surface(point, bsdf, rng.draw(vertex + 2, Purpose::Placement)));

@@ -16,12 +16,13 @@ inline constexpr std::uint32_t kLightWalk = 0;
 inline constexpr std::uint32_t kCameraWalk = 1;
 
 /// Effects that walks know: neither colors nor the direction of facets matter to them.
-inline constexpr FeatureSet kWalkEffects =
-    kLobeFeatures.with(Feature::Blends).with(Feature::CutOuts).with(kPlaceFeatures);
+inline constexpr FeatureSet kWalkEffects = kSurfaceFeatures.without(Feature::Anisotropy)
+                                               .with(features(Feature::Blends, Feature::CutOuts))
+                                               .with(kPlaceFeatures);
 
 /// The direction in which a walk leaves a surface; black if it ends there. u in [0,1)^4.
-inline Vec3f leave_surface(const SurfacePoint& point, const LayeredBsdf& bsdf, Vec4f u) {
-    if (u.z < bsdf.delta_probability()) return bsdf.sample_delta<kEveryFeature>(point, u.w).wi;
+inline Vec3f leave_surface(const SurfacePoint& point, const Bsdf<kWalkEffects>& bsdf, Vec4f u) {
+    if (u.z < bsdf.delta_probability()) return bsdf.sample_delta(point, u.w).wi;
     return bsdf.sample(point, {u.x, u.y}, u.w);
 }
 

@@ -13,9 +13,9 @@
 #include "core/io/mtl_map.h"
 #include "core/io/mtl_surface.h"
 #include "core/io/obj_names.h"
-#include "core/io/surface_names.h"
 #include "core/io/tally.h"
 #include "core/scene/description.h"
+#include "core/scene/surface_info.h"
 
 namespace pl {
 

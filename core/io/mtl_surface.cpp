@@ -1,5 +1,5 @@
 #include "core/io/mtl_surface.h"
-#include "core/scene/glass.h"
+#include "core/scene/surface_info.h"
 
 #include <algorithm>
 #include <cmath>
@@ -49,7 +49,7 @@ SurfaceKind kind_of(const MtlEntry& entry) {
 
 float roughness_of(const MtlEntry& entry, SurfaceKind kind) {
     float roughness = 0.0f;
-    if (kind == SurfaceKind::Pane) {
+    if (!surface_info(kind).has(material_parameter::kRoughness)) {
         return roughness;
     }
     if (entry.roughness || entry.pr) {
@@ -85,11 +85,11 @@ glm::vec3 specular_of(const MtlEntry& entry, SurfaceKind kind) {
     if (kind == SurfaceKind::Plastic && has_ks) {
         return *entry.ks / strongest(entry.ks);  // the tint only: Fresnel's equations give the reflectance
     }
-    return glm::vec3(1.0f);
+    return kind == SurfaceKind::Velvet ? entry.ks.value_or(glm::vec3(1.0f)) : glm::vec3(1.0f);
 }
 
 glm::vec3 albedo_of(const MtlEntry& entry, SurfaceKind kind) {
-    if (kind == SurfaceKind::Conductor || is_glass(kind)) {
+    if (!surface_info(kind).has(material_parameter::kAlbedo)) {
         return glm::vec3(0.0f);
     }
     return entry.kd.value_or(entry.map_kd ? glm::vec3(1.0f) : glm::vec3(0.0f));
@@ -110,7 +110,7 @@ MaterialDescription surface_of(const MtlEntry& entry, std::vector<std::string>& 
     material.emission = entry.ke.value_or(glm::vec3(entry.map_ke ? 1.0f : 0.0f));
     material.two_sided_emission = entry.two_sided;
     const bool says_color = entry.kd || entry.ke || entry.map_kd || entry.map_ke;
-    if (!says_color && (material.kind == SurfaceKind::Diffuse || material.kind == SurfaceKind::Plastic)) {
+    if (!says_color && surface_info(material.kind).has(material_parameter::kAlbedo)) {
         material.albedo = kDefaultAlbedo;
         notes.emplace_back("has neither Kd nor Ke and is shown in the default color");
     }

@@ -1,7 +1,7 @@
 #include "core/io/scene_materials.h"
 
 #include <algorithm>
-#include <array>
+#include <cmath>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,9 +14,9 @@
 #include "core/io/mtl_surface.h"
 #include "core/io/nearest_name.h"
 #include "core/io/sky/sky_model.h"
-#include "core/io/surface_names.h"
 #include "core/io/texture_file.h"
 #include "core/scene/blends.h"
+#include "core/scene/surface_info.h"
 
 namespace pl {
 
@@ -71,26 +71,34 @@ std::uint32_t find_material(const JsonDocument& file, const SceneDescription& sc
     file.fail(pointer, "the scene has no such material" + did_you_mean(name, names));
 }
 
+/// A value of an enumeration that describes itself.
+template <Described Choice>
+std::optional<Choice> read_choice(const JsonDocument& file, const std::string& pointer) {
+    const std::optional<std::string> name = file.text(pointer);
+    if (!name) return std::nullopt;
+    const std::optional<Choice> value = choice_named<Choice>(*name);
+    if (!value)
+        file.fail(pointer,
+                  fmt::format("expected one of {}, got '{}'", fmt::join(choice_names<Choice>(), ", "), *name));
+    return value;
+}
+
+void read_parameter(const JsonDocument& file, const std::string& at, const MaterialParameter& parameter,
+                    MaterialDescription& material) {
+    const std::string pointer = at + "/" + parameter.name;
+    if (parameter.color != nullptr) {
+        glm::vec3& color = material.*parameter.color;
+        color = (std::isfinite(parameter.most) ? read_share : read_light)(file, pointer).value_or(color);
+    } else {
+        float& number = material.*parameter.number;
+        number = read_within(file, pointer, parameter.least, parameter.most).value_or(number);
+    }
+}
+
 void read_surface(const JsonDocument& file, const std::string& at, MaterialDescription& material) {
-    if (const std::optional<std::string> name = file.text(at + "/surface")) {
-        const std::optional<SurfaceKind> kind = choice_named<SurfaceKind>(*name);
-        if (!kind) {
-            file.fail(at + "/surface", fmt::format("expected one of {}, got '{}'",
-                                                   fmt::join(choice_names<SurfaceKind>(), ", "), *name));
-        }
-        material.kind = *kind;
-    }
-    material.roughness = read_within(file, at + "/roughness", 0.0f, 1.0f).value_or(material.roughness);
-    if (material.roughness < kLeastRoughness || material.kind == SurfaceKind::Pane) {
-        material.roughness = 0.0f;
-    }
-    material.anisotropy = read_within(file, at + "/anisotropy", 0.0f, kMostAnisotropy).value_or(material.anisotropy);
-    material.rotation_deg = file.number(at + "/rotation_deg").value_or(material.rotation_deg);
-    material.ior = read_within(file, at + "/ior", kLeastIor, kMostIor).value_or(material.ior);
-    material.specular = read_share(file, at + "/specular").value_or(material.specular);
-    material.edge_tint = read_share(file, at + "/edge_tint").value_or(material.edge_tint);
-    material.transmission = read_share(file, at + "/transmission").value_or(material.transmission);
-    material.absorption = read_light(file, at + "/absorption").value_or(material.absorption);
+    material.kind = read_choice<SurfaceKind>(file, at + "/surface").value_or(material.kind);
+    for (const MaterialParameter* parameter : kMaterialParameters) read_parameter(file, at, *parameter, material);
+    if (material.roughness < kLeastRoughness || material.kind == SurfaceKind::Pane) material.roughness = 0.0f;
 }
 
 /// Whether an image repeats outside of [0, 1].
@@ -126,28 +134,12 @@ void read_images(const JsonDocument& file, const std::string& at, SceneDescripti
     }
 }
 
-/// One of the names of an enumeration, in the order of its values.
-template <class Choice, std::size_t kCount>
-std::optional<Choice> read_choice(const JsonDocument& file, const std::string& pointer,
-                                  const std::array<std::string_view, kCount>& names) {
-    const std::optional<std::string> name = file.text(pointer);
-    if (!name) {
-        return std::nullopt;
-    }
-    const auto known = std::find(names.begin(), names.end(), *name);
-    if (known == names.end()) {
-        file.fail(pointer, fmt::format("expected one of {}, got '{}'", fmt::join(names, ", "), *name));
-    }
-    return static_cast<Choice>(known - names.begin());
-}
-
 /// A partial opacity blends unless the file says otherwise.
 void read_opacity(const JsonDocument& file, const std::string& at, MaterialDescription& material) {
     const std::optional<float> opacity = read_within(file, at + "/opacity", 0.0f, 1.0f);
     const OpacityRule standard = opacity.value_or(1.0f) < 1.0f ? OpacityRule::Blend : material.opacity_rule;
     material.opacity = opacity.value_or(material.opacity);
-    material.opacity_rule =
-        read_choice<OpacityRule>(file, at + "/opacity_rule", kOpacityRuleNames).value_or(standard);
+    material.opacity_rule = read_choice<OpacityRule>(file, at + "/opacity_rule").value_or(standard);
 }
 
 void read_blend(const JsonDocument& file, const std::string& at, const SceneDescription& scene,
@@ -236,38 +228,30 @@ void read_materials(const JsonDocument& file, SceneDescription& scene) {
     if (!all->is_object()) {
         file.fail("/materials", "expected an object { ... }");
     }
+    std::vector<std::string> keys{"emission",
+                                  "two_sided_emission",
+                                  "surface",
+                                  "albedo_map",
+                                  "roughness_map",
+                                  "emission_map",
+                                  "opacity_map",
+                                  "normal_map",
+                                  "wrap",
+                                  "albedo_map_wrap",
+                                  "roughness_map_wrap",
+                                  "emission_map_wrap",
+                                  "opacity_map_wrap",
+                                  "normal_map_wrap",
+                                  "normal_strength",
+                                  "normal_green",
+                                  "opacity",
+                                  "opacity_rule",
+                                  "blend"};
+    for (const MaterialParameter* parameter : kMaterialParameters) keys.emplace_back(parameter->name);
     for (const auto& [name, overrides] : all->items()) {
         const std::string at = "/materials" + pointer_step(name);
-        file.object(at, {"albedo",
-                         "emission",
-                         "two_sided_emission",
-                         "surface",
-                         "roughness",
-                         "anisotropy",
-                         "rotation_deg",
-                         "ior",
-                         "specular",
-                         "edge_tint",
-                         "transmission",
-                         "albedo_map",
-                         "roughness_map",
-                         "emission_map",
-                         "opacity_map",
-                         "normal_map",
-                         "wrap",
-                         "albedo_map_wrap",
-                         "roughness_map_wrap",
-                         "emission_map_wrap",
-                         "opacity_map_wrap",
-                         "normal_map_wrap",
-                         "normal_strength",
-                         "normal_green",
-                         "absorption",
-                         "opacity",
-                         "opacity_rule",
-                         "blend"});
+        file.object(at, keys);
         MaterialDescription& material = scene.materials[find_material(file, scene, at, name)];
-        material.albedo = read_share(file, at + "/albedo").value_or(material.albedo);
         material.emission = read_light(file, at + "/emission").value_or(material.emission);
         material.two_sided_emission = file.boolean(at + "/two_sided_emission").value_or(material.two_sided_emission);
         read_surface(file, at, material);
@@ -275,8 +259,7 @@ void read_materials(const JsonDocument& file, SceneDescription& scene) {
         read_images(file, at, scene, material.textures);
         material.normal_strength =
             read_within(file, at + "/normal_strength", 0.0f, kMostNormalStrength).value_or(material.normal_strength);
-        material.normal_green =
-            read_choice<NormalGreen>(file, at + "/normal_green", kNormalGreenNames).value_or(material.normal_green);
+        material.normal_green = read_choice<NormalGreen>(file, at + "/normal_green").value_or(material.normal_green);
         read_opacity(file, at, material);
     }
     check_blends(file, scene);
@@ -295,22 +278,14 @@ void read_material_file(const std::filesystem::path& path, SceneDescription& sce
 }
 
 Json material_json(const MaterialDescription& material) {
-    Json json{{"albedo", vector_json(material.albedo)},
+    Json json{{"surface", name_of(material.kind)},
               {"emission", vector_json(material.emission)},
               {"two_sided_emission", material.two_sided_emission},
-              {"surface", name_of(material.kind)},
-              {"roughness", material.roughness},
-              {"ior", material.ior},
-              {"specular", vector_json(material.specular)},
-              {"transmission", vector_json(material.transmission)},
               {"opacity", material.opacity},
-              {"opacity_rule", kOpacityRuleNames[static_cast<std::size_t>(material.opacity_rule)]}};
-    if (material.kind == SurfaceKind::Conductor) {
-        json["anisotropy"] = material.anisotropy;
-        json["rotation_deg"] = material.rotation_deg;
-    }
-    if (material.edge_tint != glm::vec3(1.0f)) json["edge_tint"] = vector_json(material.edge_tint);
-    if (material.absorption != glm::vec3(0.0f)) json["absorption"] = vector_json(material.absorption);
+              {"opacity_rule", name_of(material.opacity_rule)}};
+    for (const MaterialParameter* parameter : kMaterialParameters)
+        json[parameter->name] =
+            parameter->color != nullptr ? vector_json(material.*parameter->color) : Json(material.*parameter->number);
     if (material.blend.is_any()) json["blend"] = {{"share", material.blend.share}};
     return json;
 }

@@ -10,12 +10,11 @@
 namespace pl {
 
 /// Reads `materials`: overrides of MTL entries, name -> any of
-///   albedo, emission, specular, edge_tint, transmission, absorption   [r, g, b]
+///   surface                                    the name of a kind, see kSurfaces
+///   the names of kMaterialParameters           numbers, or [r, g, b]
+///   emission                                   [r, g, b]
 ///   two_sided_emission                         true, false
-///   surface                                    "diffuse", "conductor", "dielectric", "plastic", "pane"
-///   roughness, ior, normal_strength, opacity   numbers
-///   anisotropy, rotation_deg                   numbers, of rough conductors: 1 - the ratio of the smaller to the larger width of their
-///                                              facets, in [0, 0.99]; the angle from u towards v of the larger one
+///   normal_strength, opacity                   numbers
 ///   opacity_rule                               "threshold", "blend": the standard of an opacity below 1
 ///   normal_green                               "up", "down", "left"
 ///   blend                                      { with, share, image, image_wrap }: the name of a material, "" for none; a number in

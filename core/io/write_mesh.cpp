@@ -8,6 +8,7 @@
 
 #include "core/io/files.h"
 #include "core/io/json_file.h"
+#include "core/scene/surface_info.h"
 
 namespace pl {
 namespace {
@@ -67,23 +68,12 @@ std::string obj_text(const SceneDescription& scene, const std::vector<std::strin
     return text;
 }
 
-/// The color by which other programs show a surface.
-glm::vec3 color_of(const MaterialDescription& material) {
-    switch (material.kind) {
-    case SurfaceKind::Conductor: return material.specular;
-    case SurfaceKind::Dielectric:
-    case SurfaceKind::Pane: return material.transmission;
-    case SurfaceKind::Diffuse:
-    case SurfaceKind::Plastic: break;
-    }
-    return material.albedo;
-}
-
 std::string mtl_text(const SceneDescription& scene, const std::vector<std::string>& names) {
     std::string text = "# Colors alone: the scene file has the surfaces.\n";
     for (std::size_t i = 0; i < names.size(); ++i) {
         text += "newmtl " + names[i] + "\n";
-        const glm::vec3 color = color_of(scene.materials[i]);
+        const MaterialDescription& material = scene.materials[i];
+        const glm::vec3& color = material.*surface_info(material.kind).color;
         add_numbers(text, "Kd", &color.x, 3);
     }
     return text;

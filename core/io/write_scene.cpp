@@ -18,11 +18,11 @@
 #include "core/io/listed_cameras.h"
 #include "core/io/scene_lights.h"
 #include "core/io/scene_materials.h"
-#include "core/io/surface_names.h"
 #include "core/io/write_mesh.h"
 #include "core/io/write_texture.h"
 #include "core/scene/default_light.h"
 #include "core/scene/instances.h"
+#include "core/scene/surface_info.h"
 #include "core/scene/up_axis.h"
 
 namespace pl {
@@ -150,7 +150,7 @@ private:
         add_image(json, "normal_map", from.textures.normal, TextureContent::Normal);
         if (from.textures.normal != kNoTexture) {
             json["normal_strength"] = from.normal_strength;
-            json["normal_green"] = kNormalGreenNames[static_cast<std::size_t>(from.normal_green)];
+            json["normal_green"] = name_of(from.normal_green);
         }
         if (from.blend.is_any()) {
             json["blend"]["with"] = names[from.blend.other];

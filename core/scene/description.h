@@ -78,7 +78,7 @@ struct MaterialDescription {
     glm::vec3 emission{0.0f};         ///< emitted radiance of the front side, W m^-2 sr^-1
     bool two_sided_emission = false;  ///< the back side emits too
     SurfaceKind kind = SurfaceKind::Diffuse;
-    float roughness = 0.0f;  ///< in [0, 1]: sqrt(alpha) of GGX; 0: smooth
+    float roughness = 0.0f;  ///< in [0, 1]: sqrt(alpha) of the distribution of normals; 0: smooth
     /// Rough conductor: 1 - the ratio of the smaller to the larger width of its facets, whose geometric mean is alpha.
     float anisotropy = 0.0f;
     float rotation_deg = 0.0f;     ///< of the direction of the larger width from that of u, towards that of v

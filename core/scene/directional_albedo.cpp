@@ -7,7 +7,9 @@
 
 #include "core/base/parallel_chunks.h"
 #include "core/kernel/shading/fresnel.h"
+#include "core/kernel/shading/velvet.h"
 #include "core/scene/facet_albedo.h"
+#include "core/scene/piecewise_rule.h"
 
 namespace pl {
 namespace {
@@ -69,23 +71,31 @@ void add_means(std::vector<float>& table) {
     }
 }
 
-/// smooth(cos) gives the row of roughness 0, facet_albedo() the others.
-template <class Smooth>
-std::vector<float> make_table(FacetLight light, double eta, Smooth smooth) {
+/// `albedo` of a roughness and a cosine.
+template <class Albedo>
+std::vector<float> make_table(Albedo albedo) {
     std::vector<float> table(AlbedoTable::kSize);
     for_chunks((kRows - 1) / kRowStep + 1, 1, usable_threads(), [&](IndexRange range) {
         const auto row = range.begin * kRowStep;
         const double roughness = roughness_at(static_cast<double>(row) / (kRows - 1));
         for (std::size_t c = 0; c < kColumns; ++c) {
             const double cosine = std::max(cosine_at(static_cast<double>(c) / (kColumns - 1)), kLeastCosine);
-            const double albedo = row == 0 ? static_cast<double>(smooth(static_cast<float>(cosine)))
-                                           : facet_albedo(light, roughness * roughness, cosine, eta);
-            table[row * kColumns + c] = static_cast<float>(std::min(albedo, 1.0));
+            table[row * kColumns + c] = static_cast<float>(albedo(roughness, cosine));
         }
     });
     interpolate_rows(table);
     add_means(table);
     return table;
+}
+
+/// smooth(cos) gives the row of roughness 0, facet_albedo() the others.
+template <class Smooth>
+std::vector<float> facet_table(FacetLight light, double eta, Smooth smooth) {
+    return make_table([=](double roughness, double cosine) {
+        const double albedo = roughness == 0.0 ? static_cast<double>(smooth(static_cast<float>(cosine)))
+                                               : facet_albedo(light, roughness * roughness, cosine, eta);
+        return std::min(albedo, 1.0);
+    });
 }
 
 /// Cache of tables by eta. A table takes 10 to 60 ms of one thread, and every edit of a material repacks all materials.
@@ -110,23 +120,45 @@ private:
 }  // namespace
 
 std::vector<float> lossless_albedo() {
-    static const std::vector<float> table = make_table(FacetLight::Mirror, 1.0, [](float) { return 1.0f; });
+    static const std::vector<float> table = facet_table(FacetLight::Mirror, 1.0, [](float) { return 1.0f; });
     return table;
 }
 
 std::vector<float> coat_albedo(float eta) {
     static TablesByEta tables;
     return tables.get(eta, [eta] {
-        return make_table(FacetLight::Reflected, static_cast<double>(eta),
-                          [eta](float cos_theta) { return fresnel_dielectric(cos_theta, eta); });
+        return facet_table(FacetLight::Reflected, static_cast<double>(eta),
+                           [eta](float cos_theta) { return fresnel_dielectric(cos_theta, eta); });
     });
 }
 
 std::vector<float> glass_albedo(float eta) {
     static TablesByEta tables;
     return tables.get(eta, [eta] {
-        return make_table(FacetLight::Scattered, static_cast<double>(eta), [](float) { return 1.0f; });
+        return facet_table(FacetLight::Scattered, static_cast<double>(eta), [](float) { return 1.0f; });
     });
+}
+
+std::vector<float> sheen_albedo() {
+    // Rows below the least roughness serve the interpolation alone.
+    static const std::vector<float> table = make_table([](double roughness, double cosine) {
+        constexpr double kLeastRow = 0.2;
+        const SheenFibers fibers(static_cast<float>(std::max(roughness, kLeastRow)));
+        const Vec3f wo{Vec3d{std::sqrt(1.0 - cosine * cosine), 0.0, cosine}};
+        static const QuadratureRule<16> heights = make_piece_rule<16>(true, false);
+        static const QuadratureRule<12> azimuths = make_piece_rule<12>(false, false);
+        double albedo = 0.0;
+        for (std::size_t h = 0; h < 16; ++h)
+            for (std::size_t a = 0; a < 12; ++a) {
+                const double z = heights.at[h];
+                const double radius = std::sqrt(1.0 - z * z);
+                const double azimuth = glm::pi<double>() * azimuths.at[a];
+                const Vec3f wi{Vec3d{radius * std::cos(azimuth), radius * std::sin(azimuth), z}};
+                albedo += heights.weight[h] * azimuths.weight[a] * static_cast<double>(fibers.reflection(wo, wi));
+            }
+        return glm::two_pi<double>() * albedo;
+    });
+    return table;
 }
 
 }  // namespace pl

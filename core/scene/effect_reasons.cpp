@@ -8,6 +8,7 @@
 
 #include "core/scene/pack_light_tree.h"
 #include "core/scene/punctual_lights.h"
+#include "core/scene/surface_info.h"
 
 namespace pl {
 namespace {
@@ -67,7 +68,6 @@ std::string reason_of(Feature feature, const SceneDescription& scene, const Came
     case Feature::NextEventEstimation: return "requested by --nee on";
     case Feature::Specular: return materials_that(scene, [](const auto& m) { return has_lobe(m, false); });
     case Feature::Rough: return materials_that(scene, [](const auto& m) { return has_lobe(m, true); });
-    case Feature::Plastic: return materials_that(scene, [](const auto& m) { return m.kind == SurfaceKind::Plastic; });
     case Feature::Textures:
         return materials_that(scene, [](const auto& m) { return m.textures.any(); }) +
                (scene.vertex_colors.empty() ? "" : "; vertices have colors");
@@ -78,13 +78,12 @@ std::string reason_of(Feature feature, const SceneDescription& scene, const Came
     case Feature::NormalMaps:
         return materials_that(scene, [](const auto& m) { return m.textures.normal != kNoTexture; });
     case Feature::DeltaLights: return count_text(scene.punctual_lights);
-    case Feature::ThinPanes: return materials_that(scene, [](const auto& m) { return m.kind == SurfaceKind::Pane; });
     case Feature::Blends: return materials_that(scene, [](const auto& m) { return m.blend.is_any(); });
     case Feature::Anisotropy: return materials_that(scene, [](const auto& m) { return m.is_anisotropic(); });
     case Feature::Absorption: return materials_that(scene, [](const auto& m) { return m.absorbs(); });
     case Feature::Instances: return instances_of(scene);
+    default: return materials_that(scene, [&](const auto& m) { return surface_info(m.kind).effects.has(feature); });
     }
-    return "";
 }
 
 }  // namespace pl

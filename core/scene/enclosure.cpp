@@ -7,9 +7,9 @@
 
 #include "core/scene/blends.h"
 #include "core/scene/connections.h"
-#include "core/scene/glass.h"
 #include "core/scene/instances.h"
 #include "core/scene/position_numbers.h"
+#include "core/scene/surface_info.h"
 
 namespace pl {
 namespace {

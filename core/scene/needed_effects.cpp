@@ -1,41 +1,14 @@
 #include "core/scene/needed_effects.h"
 
-#include <string_view>
+#include "core/scene/surface_info.h"
 
 namespace pl {
-
 namespace {
 
 /// Effects of the non-diffuse lobes of a material.
 FeatureSet effects_of(const SurfaceLobes& lobes) {
     if (lobes.kind == SurfaceKind::Diffuse) return {};
-    const FeatureSet set = features(lobes.roughness > 0.0f ? Feature::Rough : Feature::Specular);
-    if (lobes.kind == SurfaceKind::Pane) return set.with(Feature::ThinPanes);
-    return lobes.kind == SurfaceKind::Plastic ? set.with(Feature::Plastic) : set;
-}
-
-std::string_view name_of(Feature feature) {
-    switch (feature) {
-    case Feature::SmoothNormals: return "smooth-normals";
-    case Feature::Environment: return "environment";
-    case Feature::NextEventEstimation: return "next-event-estimation";
-    case Feature::Specular: return "specular";
-    case Feature::Rough: return "rough";
-    case Feature::Plastic: return "plastic";
-    case Feature::Textures: return "textures";
-    case Feature::CutOuts: return "cut-outs";
-    case Feature::EnvironmentMap: return "environment-map";
-    case Feature::ThinLens: return "thin-lens";
-    case Feature::ManyLights: return "many-lights";
-    case Feature::NormalMaps: return "normal-maps";
-    case Feature::DeltaLights: return "delta-lights";
-    case Feature::Absorption: return "absorption";
-    case Feature::ThinPanes: return "thin-panes";
-    case Feature::Blends: return "blends";
-    case Feature::Anisotropy: return "anisotropy";
-    case Feature::Instances: return "instances";
-    }
-    return "";
+    return surface_info(lobes.kind).effects.with(lobes.roughness > 0.0f ? Feature::Rough : Feature::Specular);
 }
 
 }  // namespace
@@ -64,8 +37,8 @@ FeatureSet needed_effects(const CameraDescription& camera) {
 
 std::vector<std::string> effect_names(FeatureSet set) {
     std::vector<std::string> names;
-    for (const Feature feature : kAllFeatures)
-        if (set.has(feature)) names.emplace_back(name_of(feature));
+    for (const FeatureInfo& info : kAllFeatures)
+        if (set.has(info)) names.emplace_back(info.name);
     return names;
 }
 

@@ -15,10 +15,7 @@ FeatureSet needed_effects(const HostScene& scene);
 /// Effects of the camera.
 FeatureSet needed_effects(const CameraDescription& camera);
 
-/// Stable names of the effects in a set, in the order of kAllFeatures, for `info` and `--stats`:
-/// "smooth-normals", "environment", "next-event-estimation", "specular", "rough", "plastic", "textures", "cut-outs",
-/// "environment-map", "thin-lens", "many-lights", "normal-maps", "delta-lights", "absorption", "thin-panes", "blends",
-/// "anisotropy".
+/// Stable names of the effects in a set, in the order of kAllFeatures.
 std::vector<std::string> effect_names(FeatureSet set);
 
 }  // namespace pl

@@ -8,8 +8,7 @@
 
 #include "core/base/memory.h"
 #include "core/base/parallel_chunks.h"
-#include "core/kernel/shading/bsdf.h"
-#include "core/scene/directional_albedo.h"
+#include "core/kernel/shading/fresnel.h"
 #include "core/scene/instance_boxes.h"
 #include "core/scene/instances.h"
 #include "core/scene/pack_far_lights.h"
@@ -17,28 +16,18 @@
 #include "core/scene/pack_instances.h"
 #include "core/scene/pack_light_tree.h"
 #include "core/scene/pack_textures.h"
+#include "core/scene/surface_info.h"
 #include "core/scene/triangle_planes.h"
 
 namespace pl {
 namespace {
 
-/// Whether a metal's lobe is so wide that it is guided. The smaller width counts: a streak narrower than the cells of a table is sampled
-/// better by its facets.
-bool is_guided_metal(const MaterialDescription& m) {
-    const float across = m.is_anisotropic() ? m.roughness * std::sqrt(std::sqrt(1.0f - m.anisotropy)) : m.roughness;
-    return across >= kMinGuidedRoughness;
-}
-
-/// Albedo of the guided lobes of a surface; 0 if none is guided.
+/// Albedo of the guided lobes of a surface; 0 if none is guided. Of anisotropic facets the smaller width counts: a streak narrower than
+/// the cells of a table is sampled better by its facets.
 Vec3f guided_albedo(const MaterialDescription& m) {
-    switch (m.kind) {
-    case SurfaceKind::Diffuse:
-    case SurfaceKind::Plastic: return m.albedo;
-    case SurfaceKind::Conductor: return is_guided_metal(m) ? Vec3f{m.specular} : Vec3f{0.0f};
-    case SurfaceKind::Dielectric:
-    case SurfaceKind::Pane: return Vec3f{0.0f};
-    }
-    return Vec3f{0.0f};
+    const float across = m.is_anisotropic() ? m.roughness * std::sqrt(std::sqrt(1.0f - m.anisotropy)) : m.roughness;
+    const SurfaceInfo& info = surface_info(m.kind);
+    return across >= info.least_guided_roughness ? Vec3f{m.*info.color} : Vec3f{0.0f};
 }
 
 /// Nothing unless a vertex in use has a color.
@@ -63,35 +52,26 @@ class AlbedoTables {
 public:
     explicit AlbedoTables(std::vector<float>& values) : values_(values) {}
 
-    std::uint32_t first_for(SurfaceKind kind, float ior) {
-        const auto [place, is_new] = first_.try_emplace({kind, ior}, static_cast<std::uint32_t>(values_.size()));
+    std::uint32_t first_for(const SurfaceInfo& info, float ior) {
+        const auto [place, is_new] =
+            first_.try_emplace({info.choice.value, ior}, static_cast<std::uint32_t>(values_.size()));
         if (is_new) {
-            switch (kind) {
-            case SurfaceKind::Diffuse:
-            case SurfaceKind::Pane: break;
-            case SurfaceKind::Conductor: add(lossless_albedo()); break;
-            case SurfaceKind::Plastic: add(coat_albedo(ior)); break;
-            case SurfaceKind::Dielectric:
-                add(glass_albedo(ior));
-                add(glass_albedo(1.0f / ior));
-                break;
-            }
+            const std::vector<float> tables = info.tables(ior);
+            values_.insert(values_.end(), tables.begin(), tables.end());
         }
         return place->second;
     }
 
 private:
-    void add(const std::vector<float>& table) { values_.insert(values_.end(), table.begin(), table.end()); }
-
     std::vector<float>& values_;
     std::map<std::pair<SurfaceKind, float>, std::uint32_t> first_;
 };
 
-/// A dielectric that hardly refracts counts as smooth, and so do panes.
+/// A dielectric that hardly refracts counts as smooth, and so do surfaces without a roughness.
 float usable_roughness(const MaterialDescription& m) {
     constexpr float kLeastContrast = 1e-3f;
-    if (m.kind == SurfaceKind::Pane) return 0.0f;
-    const bool refracts = m.kind != SurfaceKind::Dielectric || std::fabs(m.ior - 1.0f) > kLeastContrast;
+    if (!surface_info(m.kind).has(material_parameter::kRoughness)) return 0.0f;
+    const bool refracts = !has_inside(m.kind) || std::fabs(m.ior - 1.0f) > kLeastContrast;
     return refracts ? m.roughness : 0.0f;
 }
 
@@ -102,16 +82,16 @@ void pack_lobes(const SceneDescription& scene, HostScene& packed) {
     AlbedoTables tables(packed.directional_albedo);
     packed.lobes.reserve(scene.materials.size());
     for (const MaterialDescription& m : scene.materials) {
-        const bool is_metal = m.kind == SurfaceKind::Conductor;
+        const SurfaceInfo& info = surface_info(m.kind);
         SurfaceLobes lobes{.kind = m.kind,
                            .roughness = usable_roughness(m),
                            .ior = m.ior,
                            .specular = m.specular,
-                           .transmission =
-                               is_metal ? Vec3f{1.0f} - edge_loss_of(m.specular, m.edge_tint) : m.transmission};
-        const bool uses_table = lobes.kind == SurfaceKind::Plastic || lobes.roughness > 0.0f;
-        // The table of a conductor does not depend on an index of refraction.
-        if (uses_table) lobes.table = tables.first_for(m.kind, is_metal ? 1.0f : m.ior);
+                           .transmission = m.transmission};
+        if (info.has(material_parameter::kEdgeTint))
+            lobes.transmission = Vec3f{1.0f} - edge_loss_of(m.specular, m.edge_tint);
+        if (info.tables != nullptr && (info.has_smooth_tables || lobes.roughness > 0.0f))
+            lobes.table = tables.first_for(info, info.has(material_parameter::kIor) ? m.ior : 1.0f);
         packed.lobes.push_back(lobes);
     }
 }

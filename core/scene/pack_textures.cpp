@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/scene/anisotropy.h"
-#include "core/scene/glass.h"
+#include "core/scene/surface_info.h"
 
 namespace pl {
 namespace {
@@ -27,10 +27,9 @@ float least_opacity(const TextureDescription& texture) {
 
 float inverse_or_zero(float x) { return x > 0.0f ? 1.0f / x : 0.0f; }
 
-/// The parameter that an albedo texture multiplies.
+/// The color that an albedo texture multiplies.
 Vec3f tinted(const MaterialDescription& material) {
-    if (material.kind == SurfaceKind::Conductor) return material.specular;
-    return is_glass(material.kind) ? Vec3f{0.0f} : material.albedo;
+    return is_glass(material.kind) ? Vec3f{0.0f} : Vec3f{material.*surface_info(material.kind).color};
 }
 
 class ImagePacker {

@@ -13,6 +13,7 @@
 #include "core/scene/blends.h"
 #include "core/scene/instances.h"
 #include "core/scene/punctual_lights.h"
+#include "core/scene/surface_info.h"
 
 namespace pl {
 
@@ -109,62 +110,40 @@ void check_triangles(std::string& list, const SceneDescription& scene) {
     }
 }
 
+bool within(float x, float low, float high) { return x >= low && x <= high; }
+
+/// Whether a number, or each channel of a color, is finite and in the range of its parameter.
+bool is_valid(const MaterialDescription& m, const MaterialParameter& parameter) {
+    const glm::vec3 value = parameter.color != nullptr ? m.*parameter.color : glm::vec3(m.*parameter.number);
+    return is_finite(value) && glm::all(glm::greaterThanEqual(value, glm::vec3(parameter.least))) &&
+           glm::all(glm::lessThanEqual(value, glm::vec3(parameter.most)));
+}
+
+std::string fault_of(const MaterialDescription& m, const MaterialParameter& parameter) {
+    const std::string value =
+        parameter.color != nullptr ? show(m.*parameter.color) : fmt::format("{}", m.*parameter.number);
+    std::string expected = "finite";
+    if (std::isfinite(parameter.most))
+        expected = fmt::format("within [{}, {}]", parameter.least, parameter.most);
+    else if (std::isfinite(parameter.least))
+        expected += fmt::format(" and at least {}", parameter.least);
+    return fmt::format("material '{}': {} {} is not {}", m.name, parameter.words, value, expected);
+}
+
 void check_materials(std::string& list, std::span<const MaterialDescription> materials) {
-    Complaint albedo(list);
+    Complaint value(list);
     Complaint emission(list);
     for (const MaterialDescription& m : materials) {
-        if (!is_albedo(m.albedo)) {
-            albedo.add(
-                [&] { return fmt::format("material '{}': albedo {} is not within [0, 1]", m.name, show(m.albedo)); });
-        }
-        if (!is_light(m.emission)) {
+        for (const MaterialParameter* parameter : kMaterialParameters)
+            if (!is_valid(m, *parameter)) value.add([&] { return fault_of(m, *parameter); });
+        if (!is_light(m.emission))
             emission.add([&] {
                 return fmt::format("material '{}': emission {} is not finite and at least 0", m.name,
                                    show(m.emission));
             });
-        }
-    }
-}
-
-bool within(float x, float low, float high) { return x >= low && x <= high; }
-
-void check_surfaces(std::string& list, std::span<const MaterialDescription> materials) {
-    Complaint number(list);
-    Complaint color(list);
-    for (const MaterialDescription& m : materials) {
-        if (!within(m.roughness, 0.0f, 1.0f)) {
-            number.add(
-                [&] { return fmt::format("material '{}': roughness {} is not within [0, 1]", m.name, m.roughness); });
-        }
-        if (!within(m.ior, kLeastIor, kMostIor)) {
-            number.add([&] {
-                return fmt::format("material '{}': index of refraction {} is not within [{}, {}]", m.name, m.ior,
-                                   kLeastIor, kMostIor);
-            });
-        }
-        if (!within(m.anisotropy, 0.0f, kMostAnisotropy))
-            number.add([&] {
-                return fmt::format("material '{}': anisotropy {} is not within [0, {}]", m.name, m.anisotropy,
-                                   kMostAnisotropy);
-            });
-        if (!std::isfinite(m.rotation_deg))
-            number.add([&] { return fmt::format("material '{}': the rotation is not finite", m.name); });
         if (!within(m.opacity, 0.0f, 1.0f))
-            number.add(
+            value.add(
                 [&] { return fmt::format("material '{}': opacity {} is not within [0, 1]", m.name, m.opacity); });
-        if (!is_finite(m.absorption) || glm::any(glm::lessThan(m.absorption, glm::vec3(0.0f))))
-            number.add([&] {
-                return fmt::format("material '{}': absorption {} is not finite and at least 0", m.name,
-                                   show(m.absorption));
-            });
-        for (const auto& [what, value] :
-             {std::pair{"specular", m.specular}, {"edge tint", m.edge_tint}, {"transmission", m.transmission}}) {
-            if (!is_albedo(value)) {
-                color.add([&, what = what, value = value] {
-                    return fmt::format("material '{}': {} {} is not within [0, 1]", m.name, what, show(value));
-                });
-            }
-        }
     }
 }
 
@@ -293,7 +272,6 @@ void validate_scene(const SceneDescription& scene) {
     check_triangles(list, scene);
     list += complaints_about_instances(scene);
     check_materials(list, scene.materials);
-    check_surfaces(list, scene.materials);
     check_textures(list, scene.textures);
     check_texture_uses(list, scene.materials, scene.textures);
     check_blends(list, scene.materials);
@@ -311,7 +289,6 @@ void validate_scene(const SceneDescription& scene) {
 void validate_material(const MaterialDescription& material, std::uint32_t index, const SceneDescription& scene) {
     std::string list;
     check_materials(list, {&material, 1});
-    check_surfaces(list, {&material, 1});
     check_texture_uses(list, {&material, 1}, scene.textures);
     std::vector<MaterialDescription> materials = scene.materials;
     materials[index] = material;

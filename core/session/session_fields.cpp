@@ -35,7 +35,7 @@ std::uint64_t SessionFields::trained_passes(MethodId method) const {
     return progress(method).passes - progress(method).untrained_passes;
 }
 
-/// The size of tables follows from their shape; the back end is asked for other fields only, since it may have to wait for a device.
+/// The back end is asked only if nothing follows from the shape, since it may have to wait for a device.
 FieldReport SessionFields::report(MethodId method) const {
     const auto report =
         report_by_shape(placement_.shape(), placement_.count(), representation_of(settings(), method));

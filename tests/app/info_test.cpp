@@ -57,6 +57,11 @@ TEST_CASE("info describes metals and glass by what they are") {
     CHECK_THAT(brushed,
                contains("gold: metal, reflects 1,0.75,0.25, roughness 0.5, anisotropy 0.75 at 30 degrees, "));
     CHECK_THAT(brushed, contains("anisotropy: of 1 material: gold\n"));
+    write_all(folder / "a.json", R"({"schema": "pathlight.scene/1", "obj": "a.obj",
+        "materials": {"wall": {"surface": "velvet", "specular": [1, 0.5, 0], "roughness": 0.5}}})");
+    const std::string cloth = run_program({"info", folder / "a.json", "-q"}).out;
+    CHECK_THAT(cloth, contains("wall: reflects 0.5,0.5,0.5 under a sheen of 1,0.5,0, roughness 0.5, emits 0,0,0\n"));
+    CHECK_THAT(cloth, contains("velvet: of 1 material: wall\n"));
     const ProgramResult json = run_program({"info", folder / "a.obj", "--json"});
     const ordered_json gold = ordered_json::parse(lines_of(json.out).back())["materials"][0];
     CHECK(gold["surface"] == "conductor");

@@ -34,6 +34,7 @@ EFFECTS = {
     "shading/absorption.h": str(Path(__file__).with_name("ink.json")),
     "shading/blends.h": str(Path(__file__).with_name("rust.json")),
     "shading/anisotropy.h": str(Path(__file__).with_name("brush.json")),
+    "shading/velvet.h": str(Path(__file__).with_name("cloth.json")),
     "geometry/instance_traversal.h": "instances",
 }
 PLAIN = (["cornell", "--nee", "off"], ["cornell", "--nee", "on"], ["cornell", "--method", "reinforcement", "--nee", "on"],
@@ -83,7 +84,7 @@ def spent_in(counts, file):
 
 # Left out by the quick check: many runs under callgrind take long.
 QUICK_PLAIN = PLAIN[2:3]
-QUICK_SCENES = ("coats", "instances", *(str(Path(__file__).with_name(f"{name}.json")) for name in ("ink", "rust", "brush")))
+QUICK_SCENES = ("coats", "instances", *(str(Path(__file__).with_name(f"{name}.json")) for name in ("ink", "rust", "brush", "cloth")))
 
 
 def main():
@@ -108,9 +109,10 @@ def main():
         print(f"{scene}: {spent} instructions of {file}")
         if spent == 0:
             failures.append(f"{scene} needs {file}: expected instructions of it, got none")
-    # Metals, glass and coats without images have a kernel without anisotropy.
-    if spent_in(profiles["coats"], "shading/anisotropy.h"):
-        failures.append("coats: expected none of shading/anisotropy.h, got instructions of it")
+    # Metals, glass and coats without images have a kernel without anisotropy and velvet.
+    for file in ("shading/anisotropy.h", "shading/velvet.h"):
+        if spent_in(profiles["coats"], file):
+            failures.append(f"coats: expected none of {file}, got instructions of it")
     if failures:
         sys.exit("FAILED:\n" + "\n".join(failures))
 

@@ -1,4 +1,5 @@
 // Materials at their limits: black, white, mirrors face to face, thin glass, glass that is none, roughness at both ends.
+#include "core/scene/surface_info.h"
 #include "tests/hard/hard_scenes.h"
 #include "tests/support/catch.hpp"
 #include "tests/support/scenes/image_scenes.h"
@@ -140,20 +141,18 @@ TEST_CASE("Metals that are hardly rough are mirrors", "[hard]") {
 }
 
 TEST_CASE("Every kind of surface at every limit makes finite pictures by every method", "[hard]") {
-    for (const SurfaceKind kind : {SurfaceKind::Diffuse, SurfaceKind::Conductor, SurfaceKind::Dielectric,
-                                   SurfaceKind::Plastic, SurfaceKind::Pane})
+    for (const SurfaceInfo& info : kSurfaces)
         for (const float roughness : {0.0f, 1e-6f, 0.29f, 1.0f})
             for (const float color : {0.0f, 1.0f}) {
                 SceneDescription scene = shipped_scene("coats");
                 for (MaterialDescription& material : scene.materials)
                     if (material.emission == glm::vec3{0.0f}) {
-                        material.kind = kind;
+                        material.kind = info.choice.value;
                         material.roughness = roughness;
                         material.albedo = material.specular = material.transmission = glm::vec3{color};
                     }
                 for (const Estimator estimator : {kEstimators[1], kEstimators[5]}) {
-                    INFO(static_cast<int>(kind)
-                         << ", roughness " << roughness << ", color " << color << ", " << estimator);
+                    INFO(info.choice.name << ", roughness " << roughness << ", color " << color << ", " << estimator);
                     CHECK(count_broken(picture_of(scene, estimator, 16, 2)) == 0);
                 }
             }

@@ -1,5 +1,5 @@
 // Smooth normals that lean away from their surface, up to 89 degrees: no light is gained, and none comes through walls.
-#include "core/io/surface_names.h"
+#include "core/scene/surface_info.h"
 #include "tests/hard/hard_scenes.h"
 #include "tests/support/catch.hpp"
 

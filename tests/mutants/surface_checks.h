@@ -13,9 +13,8 @@ namespace pl::test {
 inline Decision check_facets() {
     const Decision metal =
         check_sampling(LobeSurface(rough(SurfaceKind::Conductor, 0.6f)), 0.6f, true, kFineSampling);
-    const LobeSurfaceOf<AnisotropicFacets> brushed(
-        rough(SurfaceKind::Conductor, 0.6f), Vec3f{0.0f},
-        {.material = pack_anisotropy(0.6f, 0.0f), .axis = {.u = {1.0f, 0.0f, 0.0f}}});
+    const BrushedSurface brushed(rough(SurfaceKind::Conductor, 0.6f), Vec3f{0.0f},
+                                 {.material = pack_anisotropy(0.6f, 0.0f), .axis = {.u = {1.0f, 0.0f, 0.0f}}});
     const Decision glass =
         check_sampling(LobeSurface(rough(SurfaceKind::Dielectric, 0.6f)), 0.8f, false, kFineSampling);
     return worse_of(worse_of(metal, check_sampling(brushed, tilted(0.6f), true, kFineSampling)), glass);

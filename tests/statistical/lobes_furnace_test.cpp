@@ -1,6 +1,6 @@
 // Surfaces that absorb nothing under an even sky: whatever directions they scatter to, radiance is that of the sky. Glass is
 // invisible, pixel by pixel; rough surfaces are on the mean.
-#include "core/io/surface_names.h"
+#include "core/scene/surface_info.h"
 #include "tests/support/catch.hpp"
 #include "tests/support/scenes/shapes.h"
 #include "tests/support/session/sessions.h"

@@ -3,8 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "core/io/surface_names.h"
-#include "core/scene/glass.h"
+#include "core/scene/surface_info.h"
 #include "ui/draw/widgets.h"
 #include "ui/panels/panels.h"
 
@@ -55,41 +54,15 @@ bool scaled_color_rows(const ScaledColorRows& rows, glm::vec3& value, const glm:
     return changed;
 }
 
-bool draw_reflection(MaterialDescription& m, const MaterialDescription& file) {
-    bool changed = false;
-    if (m.kind == SurfaceKind::Diffuse || m.kind == SurfaceKind::Plastic)
-        changed |= share_row("Color", "Diffuse reflectance.", m.albedo);
-    if (m.kind == SurfaceKind::Conductor) {
-        changed |= share_row("Reflectance", "Of the metal at normal incidence.", m.specular);
-        changed |=
-            share_row("Edge tint", "Reflectance at 82 degrees over that of Schlick's approximation.", m.edge_tint);
-    }
-    if (is_glass(m.kind) || m.kind == SurfaceKind::Plastic)
-        changed |= share_row("Reflected", "Tint of the light that glass or coat reflects.", m.specular);
-    if (is_glass(m.kind)) changed |= share_row("Transmitted", "Tint of the transmitted light.", m.transmission);
-    if (m.kind == SurfaceKind::Diffuse) return changed;
-    if (m.kind != SurfaceKind::Pane)
-        changed |= slider_row("Roughness", "0 is a mirror; the alpha of the microfacet distribution is its square.",
-                              &m.roughness, {0.0f, 1.0f, file.roughness, "%.3f"});
-    if (m.kind == SurfaceKind::Conductor && m.roughness > 0.0f) {
-        changed |= slider_row(
-            "Anisotropy", "1 - the ratio of the smaller to the larger width of the facets; 0: the same both ways.",
-            &m.anisotropy, {0.0f, kMostAnisotropy, file.anisotropy, "%.3f"});
-        if (m.anisotropy > 0.0f)
-            changed |= slider_row("Rotation", "Angle of the larger width from that of u of the images, towards v.",
-                                  &m.rotation_deg, {-180.0f, 180.0f, file.rotation_deg, "%.1f"});
-    }
-    if (m.kind != SurfaceKind::Conductor)
-        changed |=
-            slider_row("Index", "Index of refraction, inside over outside: water 1.33, glass 1.5, diamond 2.4.",
-                       &m.ior, {kLeastIor, kMostIor, file.ior, "%.3f"});
-    if (m.kind == SurfaceKind::Dielectric)
-        changed |= scaled_color_rows({"Absorption",
-                                      "Of the glass, per unit of length, in the largest channel: it lets the share "
-                                      "exp(-absorption x length) through. 0: clear.",
-                                      "Absorbed", "Color of the light that the glass takes away."},
-                                     m.absorption, file.absorption);
-    return changed;
+bool draw_parameter(const SurfaceParameter& row, MaterialDescription& m, const MaterialDescription& file) {
+    const MaterialParameter& parameter = *row.parameter;
+    if (row.matters != nullptr && !row.matters(m)) return false;
+    if (parameter.number != nullptr)
+        return slider_row(row.label, row.tip, &(m.*parameter.number),
+                          {parameter.slider_least, parameter.slider_most, file.*parameter.number, parameter.format});
+    if (row.color_label == nullptr) return share_row(row.label, row.tip, m.*parameter.color);
+    return scaled_color_rows({row.label, row.tip, row.color_label, row.color_tip}, m.*parameter.color,
+                             file.*parameter.color);
 }
 
 bool draw_emission(MaterialDescription& m, const MaterialDescription& file) {
@@ -142,7 +115,8 @@ void draw_material_tab(ViewerModel& model) {
     const MaterialDescription& file = model.scene().materials().in_file(index);
     MaterialDescription material = model.scene().materials().now()[index];
     bool changed = choice_row("Kind", "The BSDF of the surface.", &material.kind);
-    changed |= draw_reflection(material, file);
+    for (const SurfaceParameter& row : surface_info(material.kind).parameters)
+        changed |= draw_parameter(row, material, file);
     changed |= draw_emission(material, file);
     changed |= draw_opacity(material, file);
     if (material.blend.is_any())

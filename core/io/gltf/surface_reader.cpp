@@ -12,16 +12,18 @@
 #include "core/io/gltf/material_values.h"
 #include "core/io/mtl_surface.h"
 #include "core/kernel/shading/absorption.h"
+#include "core/kernel/shading/velvet.h"
 #include "core/scene/anisotropy.h"
-#include "core/scene/glass.h"
+#include "core/scene/surface_info.h"
 
 namespace pl {
 namespace {
 
 /// Extensions and members that change the picture and are not supported, with the words for them.
-constexpr std::array<std::pair<const char*, const char*>, 11> kLeftOut = {{
+constexpr std::array<std::pair<const char*, const char*>, 12> kLeftOut = {{
     {"/occlusionTexture", "occlusion images are left out: the light itself is traced"},
-    {"/extensions/KHR_materials_sheen", "sheen is left out"},
+    {"/extensions/KHR_materials_sheen/sheenColorTexture", "images of the color of sheen are left out"},
+    {"/extensions/KHR_materials_sheen/sheenRoughnessTexture", "images of the roughness of sheen are left out"},
     {"/extensions/KHR_materials_iridescence", "iridescence is left out"},
     {"/extensions/KHR_materials_anisotropy/anisotropyTexture", "images of anisotropy are left out"},
     {"/extensions/KHR_materials_dispersion", "dispersion is left out"},
@@ -58,6 +60,7 @@ public:
         read_anisotropy();
         read_specular();
         read_transmission();
+        read_sheen();
         read_clearcoat();
         read_unlit();
         read_emission();
@@ -193,6 +196,25 @@ private:
         material_.textures.roughness = kNoTexture;
     }
 
+    /// Fibers over the base, in the place of its reflection. [KHR_materials_sheen]
+    void read_sheen() {
+        const std::string at = extension("sheen");
+        if (!json_.has(at + "/sheenColorFactor")) return;
+        const glm::vec3 color = glm::vec3(clamped_shares(file_, at + "/sheenColorFactor", 3));
+        if (strongest(color) == 0.0f) return;
+        const bool fits = metalness_.mean < kGltfHalf && !is_glass(material_.kind);
+        if (!fits || metalness_.most > 0.0f) note("sheen on metal or glass is left out");
+        if (!fits) return;
+        material_.kind = SurfaceKind::Velvet;
+        material_.specular = color;
+        material_.roughness = share(at + "/sheenRoughnessFactor", 0.0f);
+        material_.textures.roughness = kNoTexture;
+        note("sheen takes the place of the reflection of its base");
+        if (material_.roughness >= SheenFibers::kLeastRoughness) return;
+        material_.roughness = SheenFibers::kLeastRoughness;
+        note(fmt::format("sheen of a roughness below {0} is shown as one of {0}", SheenFibers::kLeastRoughness));
+    }
+
     void read_clearcoat() {
         const std::string at = extension("clearcoat");
         const float amount = share(at + "/clearcoatFactor", 0.0f);
@@ -201,6 +223,7 @@ private:
         if (!fits || metalness_.most > 0.0f)
             note("a clear coat on metal or glass, or of less than one half, is left out");
         if (!fits) return;
+        if (material_.kind == SurfaceKind::Velvet) note("sheen under a clear coat is left out");
         material_.kind = SurfaceKind::Plastic;
         material_.specular = glm::vec3(1.0f);
         material_.ior = 1.5f;

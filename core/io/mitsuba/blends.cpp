@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/kernel/shading/blends.h"
-#include "core/scene/glass.h"
+#include "core/scene/surface_info.h"
 
 namespace pl {
 namespace {

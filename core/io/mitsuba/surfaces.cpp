@@ -167,6 +167,7 @@ private:
         } else {
             material_.kind = SurfaceKind::Plastic;
             material_.albedo = base;
+            read_sheen();
         }
         const MitsubaWeight metallic = mitsuba_weight(bsdf_, "metallic", 0.0f, scene_);
         others_ = blended_parts(bsdf_, {material_}, {metal}, metallic, scene_);
@@ -174,6 +175,26 @@ private:
         others_.erase(others_.begin());
         if (!image_) image_ = metallic.texture;
         bsdf_.note("principled surfaces are shown as metal, plastic, a blend of the two, or glass");
+    }
+
+    /// The sheen of a principled surface, (1 - cos)^5 of the angle between light and facets, has a sixth of the directional albedo of
+    /// velvet of this roughness, to 0.01 from 5 degrees above the surface on.
+    void read_sheen() {
+        constexpr float kRoughness = 0.3f;
+        constexpr float kShare = 1.0f / 6.0f;
+        const float sheen = std::clamp(bsdf_.number("sheen").value_or(0.0f), 0.0f, 1.0f);
+        const float tinted = std::clamp(bsdf_.number("sheen_tint").value_or(0.0f), 0.0f, 1.0f);
+        if (sheen == 0.0f) return;
+        if (bsdf_.number("specular").value_or(0.5f) > 0.0f) {
+            bsdf_.note("the sheen of principled surfaces whose specular is not 0 is left out");
+            return;
+        }
+        const float brightness = luminance(material_.albedo);
+        const glm::vec3 tint = brightness > 0.0f ? material_.albedo / brightness : glm::vec3(1.0f);
+        material_.kind = SurfaceKind::Velvet;
+        material_.specular = within_one(kShare * sheen * glm::mix(glm::vec3(1.0f), tint, tinted));
+        material_.roughness = kRoughness;
+        bsdf_.note("the sheen of principled surfaces is shown as the nearest velvet");
     }
 
     const MitsubaObject& bsdf_;

@@ -27,14 +27,37 @@ enum class Feature : std::uint32_t {
     Blends = 1u << 15,              ///< surfaces of two materials, chosen at random by their shares
     Anisotropy = 1u << 16,          ///< facets of rough metals that are wider in one direction than in the other
     Instances = 1u << 17,           ///< meshes that are stored once and shown many times
+    Velvet = 1u << 18,              ///< a sheen of fibers over a Lambert base
 };
 
-inline constexpr Feature kAllFeatures[] = {Feature::SmoothNormals, Feature::Environment, Feature::NextEventEstimation,
-                                           Feature::Specular,      Feature::Rough,       Feature::Plastic,
-                                           Feature::Textures,      Feature::CutOuts,     Feature::EnvironmentMap,
-                                           Feature::ThinLens,      Feature::ManyLights,  Feature::NormalMaps,
-                                           Feature::DeltaLights,   Feature::Absorption,  Feature::ThinPanes,
-                                           Feature::Blends,        Feature::Anisotropy,  Feature::Instances};
+/// An effect and its stable name, for `info`, `--stats` and `--force-effects`. Converts to the effect.
+struct FeatureInfo {
+    Feature value;
+    const char* name;
+
+    constexpr operator Feature() const { return value; }
+};
+inline constexpr FeatureInfo kAllFeatures[] = {
+    {Feature::SmoothNormals, "smooth-normals"},
+    {Feature::Environment, "environment"},
+    {Feature::NextEventEstimation, "next-event-estimation"},
+    {Feature::Specular, "specular"},
+    {Feature::Rough, "rough"},
+    {Feature::Plastic, "plastic"},
+    {Feature::Textures, "textures"},
+    {Feature::CutOuts, "cut-outs"},
+    {Feature::EnvironmentMap, "environment-map"},
+    {Feature::ThinLens, "thin-lens"},
+    {Feature::ManyLights, "many-lights"},
+    {Feature::NormalMaps, "normal-maps"},
+    {Feature::DeltaLights, "delta-lights"},
+    {Feature::Absorption, "absorption"},
+    {Feature::ThinPanes, "thin-panes"},
+    {Feature::Blends, "blends"},
+    {Feature::Anisotropy, "anisotropy"},
+    {Feature::Instances, "instances"},
+    {Feature::Velvet, "velvet"},
+};
 
 /// A set of features; usable as a template argument.
 struct FeatureSet {
@@ -59,6 +82,10 @@ PL_HD constexpr FeatureSet features(Features... list) {
 
 /// Effects of surfaces that have other lobes than Lambert's.
 inline constexpr FeatureSet kLobeFeatures = features(Feature::Specular, Feature::Rough, Feature::Plastic);
+
+/// Effects that decide the BSDF of a surface point; sets that differ in others alone share its functions.
+inline constexpr FeatureSet kSurfaceFeatures =
+    kLobeFeatures.with(features(Feature::ThinPanes, Feature::Anisotropy, Feature::Velvet));
 
 /// Effects that decide the place of a surface point.
 inline constexpr FeatureSet kPlaceFeatures = features(Feature::Instances);

@@ -17,8 +17,8 @@ PL_HD inline std::uint32_t medium_of([[maybe_unused]] const PathState<F, M>& sta
 }
 
 /// The medium beyond a surface in the direction wi; `medium` is that on the side of wo.
-template <class Facets>
-PL_HD inline std::uint32_t medium_towards(const SurfacePoint& surface, const LayeredBsdfOf<Facets>& bsdf, Vec3f wi,
+template <FeatureSet B>
+PL_HD inline std::uint32_t medium_towards(const SurfacePoint& surface, const LayeredBsdf<B>& bsdf, Vec3f wi,
                                           std::uint32_t medium) {
     if (!bsdf.refracts() || glm::dot(wi, surface.geometric_normal) >= 0.0f) return medium;
     return surface.front ? surface.material : kNoMedium;

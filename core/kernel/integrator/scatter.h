@@ -134,7 +134,7 @@ PL_HD_INLINED PathStatus scatter_layered(const M& method, const ScatterPoint<F, 
     const Vec4f choice = numbers.rng.draw(numbers.index, Purpose::Lobe);
     const float p = from.bsdf.delta_probability();
     if (choice.x < p) {
-        const DeltaDirection delta = from.bsdf.template sample_delta<F>(from.surface, choice.y);
+        const DeltaDirection delta = from.bsdf.sample_delta(from.surface, choice.y);
         if (is_black(delta.weight)) return terminate_black(method, state, out);
         state.direction_pdf_sa = 0.0f;
         return send_path(method, from, {.wi = delta.wi}, delta.weight * (1.0f / p), state, out.counters);

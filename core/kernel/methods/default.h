@@ -15,14 +15,13 @@ struct DefaultMethod : MethodHooks {
         return lambert_pdf_sa(surface, wi);
     }
 
-    template <class Facets>
-    PL_HD DirectionSample sample_direction(const Vertex&, const SurfacePoint& surface,
-                                           const LayeredBsdfOf<Facets>& bsdf, const ScatterNumbers& numbers) const {
+    template <FeatureSet B>
+    PL_HD DirectionSample sample_direction(const Vertex&, const SurfacePoint& surface, const LayeredBsdf<B>& bsdf,
+                                           const ScatterNumbers& numbers) const {
         return sample_bsdf(surface, bsdf, numbers);
     }
-    template <class Facets>
-    PL_HD float pdf_sa(const Vertex&, const SurfacePoint& surface, const LayeredBsdfOf<Facets>& bsdf,
-                       Vec3f wi) const {
+    template <FeatureSet B>
+    PL_HD float pdf_sa(const Vertex&, const SurfacePoint& surface, const LayeredBsdf<B>& bsdf, Vec3f wi) const {
         return bsdf.pdf_sa(surface, wi);
     }
 };

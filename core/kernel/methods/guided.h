@@ -79,17 +79,17 @@ struct Guided : Target<F> {
     PL_HD float pdf_sa(const Vertex& vertex, const SurfacePoint& surface, Vec3f wi) const {
         return weigh(vertex, surface, wi).pdf_sa;
     }
-    template <class Facets>
+    template <FeatureSet B>
     PL_HD DirectionSample sample_direction(const Vertex& vertex, const SurfacePoint& surface,
-                                           const LayeredBsdfOf<Facets>& bsdf, const ScatterNumbers& numbers) const {
+                                           const LayeredBsdf<B>& bsdf, const ScatterNumbers& numbers) const {
         if (!vertex.is_served()) return sample_bsdf(surface, bsdf, numbers);
         const Vec3f wi = samples_field(vertex, numbers)
                              ? field.sample(vertex, surface, numbers)
                              : bsdf.sample(surface, {numbers.u.y, numbers.u.z}, numbers.lobe);
         return mix(vertex, surface, wi, bsdf.pdf_sa(surface, wi));
     }
-    template <class Facets>
-    PL_HD float pdf_sa(const Vertex& vertex, const SurfacePoint& surface, const LayeredBsdfOf<Facets>& bsdf,
+    template <FeatureSet B>
+    PL_HD float pdf_sa(const Vertex& vertex, const SurfacePoint& surface, const LayeredBsdf<B>& bsdf,
                        Vec3f wi) const {
         const float bsdf_pdf_sa = bsdf.pdf_sa(surface, wi);
         return vertex.is_served() ? mix(vertex, surface, wi, bsdf_pdf_sa).pdf_sa : bsdf_pdf_sa;

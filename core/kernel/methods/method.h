@@ -17,8 +17,8 @@ PL_HD inline DirectionSample weigh_lambert(const SurfacePoint& surface, Vec3f wi
 }
 
 /// BSDF sampling of any other surface, by numbers.u.y, u.z and numbers.lobe.
-template <class Facets>
-PL_HD inline DirectionSample sample_bsdf(const SurfacePoint& surface, const LayeredBsdfOf<Facets>& bsdf,
+template <FeatureSet B>
+PL_HD inline DirectionSample sample_bsdf(const SurfacePoint& surface, const LayeredBsdf<B>& bsdf,
                                          const ScatterNumbers& numbers) {
     const Vec3f wi = bsdf.sample(surface, {numbers.u.y, numbers.u.z}, numbers.lobe);
     const float pdf_sa = bsdf.pdf_sa(surface, wi);
@@ -109,12 +109,12 @@ struct MethodHooks {
     PL_HD void finished(auto&, MethodCounters&) const {}
 };
 
-/// sample_direction() and pdf_sa() have two overloads: for Lambert reflectors, and with a LayeredBsdfOf for all other
+/// sample_direction() and pdf_sa() have two overloads: for Lambert reflectors, and with a LayeredBsdf for all other
 /// surfaces.
 template <class M>
 concept Method = std::derived_from<M, MethodHooks> &&
     requires(const M& method, const typename M::Vertex& vertex, typename M::Memory& memory,
-             const SurfacePoint& surface, const LayeredBsdf& bsdf, const Bsdf<kEveryFeature>& every,
+             const SurfacePoint& surface, const Bsdf<kLobeFeatures>& bsdf, const Bsdf<kEveryFeature>& every,
              const ScatterNumbers& numbers, Vec3f wi, const Observation& observation, MethodCounters& counters,
              typename M::Expectation& expectation) {
     { method.sample_direction(vertex, surface, numbers) } -> std::same_as<DirectionSample>;

@@ -19,7 +19,7 @@ struct AnisotropicWidth {
     PL_HD float narrowed2(float y2) const { return y2 * (ratio * ratio); }
 };
 
-/// The facets of a LayeredBsdfOf that may be anisotropic.
+/// The facets of a LayeredBsdf that may be anisotropic.
 class AnisotropicFacets {
 public:
     /// The anisotropy of a material with its directions at a surface point.

@@ -1,5 +1,5 @@
 // The BSDF at a surface point. Kernels are templates over it: LambertBsdf, an albedo alone, serves scenes with
-// diffuse surfaces only, LayeredBsdfOf all others.
+// diffuse surfaces only, LayeredBsdf all others.
 #pragma once
 
 #include "core/kernel/base/features.h"
@@ -9,12 +9,9 @@
 #include "core/kernel/shading/lambert.h"
 #include "core/kernel/shading/plastic.h"
 #include "core/kernel/shading/textured.h"
+#include "core/kernel/shading/velvet.h"
 
 namespace pl {
-
-/// Conductors at least this rough, by the smaller of two widths, are guided: lobes less wide than a few cells of a 16 x 16 table are
-/// sampled as well without it (docs/notebook/2026-11-23-paths-and-lobes.md).
-inline constexpr float kMinGuidedRoughness = 0.35f;
 
 /// Sample of a delta lobe.
 struct DeltaDirection {
@@ -34,7 +31,7 @@ struct LambertBsdf {
     PL_HD Vec3f eval(const SurfacePoint&, Vec3f, float cos_i) const { return lambert_eval(reflectance, cos_i); }
 };
 
-/// The facets of a LayeredBsdfOf in kernels without anisotropy.
+/// The facets of a LayeredBsdf in kernels without anisotropy.
 struct IsotropicFacets {
     struct Grain {};
     using Width = IsotropicWidth;
@@ -47,19 +44,24 @@ struct IsotropicFacets {
     static PL_HD Frame frame(const Grain&, Vec3f normal) { return make_frame(normal); }
 };
 
-/// The BSDF of any SurfaceKind. A vertex samples the delta lobe with probability delta_probability(), else the
-/// others, which eval(), pdf_sa() and sample() describe; their densities and weights exclude that probability.
-/// `Facets`, of conductors: IsotropicFacets or AnisotropicFacets.
-template <class Facets>
-class LayeredBsdfOf : Facets {
+template <FeatureSet F>
+using FacetsOf = std::conditional_t<F.has(Feature::Anisotropy), AnisotropicFacets, IsotropicFacets>;
+
+/// The BSDF of any SurfaceKind, for surfaces whose effects are in F. A vertex samples the delta lobe with probability
+/// delta_probability(), else the others, which eval(), pdf_sa() and sample() describe; their densities and weights
+/// exclude that probability. Each switch names every kind, so that a new one does not compile before it has its case.
+template <FeatureSet F>
+class LayeredBsdf : FacetsOf<F> {
+    using Facets = FacetsOf<F>;
+
 public:
     using Grain = typename Facets::Grain;
 
-    LayeredBsdfOf() = default;
+    LayeredBsdf() = default;
 
     /// `albedo`, `lobes`: of the material at this point; `tables`: SceneView::directional_albedo.
-    PL_HD LayeredBsdfOf(const SurfacePoint& surface, Vec3f wo, Vec3f albedo, const SurfaceLobes& lobes,
-                        Span<const float> tables, const Grain& grain = {})
+    PL_HD LayeredBsdf(const SurfacePoint& surface, Vec3f wo, Vec3f albedo, const SurfaceLobes& lobes,
+                      Span<const float> tables, const Grain& grain = {})
         : Facets(grain), reflectance_(albedo), lobes_(lobes), tables_(tables.data + lobes.table), albedo_(albedo) {
         if (!is_lambert()) face(surface, wo, grain);
     }
@@ -75,24 +77,41 @@ public:
 
     PL_HD float delta_probability() const {
         if (!smooth()) return 0.0f;
-        return lobes_.kind == SurfaceKind::Plastic ? plastic().coat_probability() : 1.0f;
+        switch (lobes_.kind) {
+        case SurfaceKind::Plastic: return plastic().coat_probability();
+        case SurfaceKind::Diffuse:
+        case SurfaceKind::Conductor:
+        case SurfaceKind::Dielectric:
+        case SurfaceKind::Pane:
+        case SurfaceKind::Velvet: break;
+        }
+        return 1.0f;
     }
     /// u in [0, 1).
-    template <FeatureSet F>
     PL_HD DeltaDirection sample_delta(const SurfacePoint& surface, float u) const {
-        if constexpr (F.has(Feature::ThinPanes)) {
-            if (lobes_.kind == SurfaceKind::Pane) return sample_pane(surface, u);
-        }
         const Vec3f up{0.0f, 0.0f, 1.0f};
         DeltaDirection delta{reflect_at(wo_, up), Vec3f{0.0f}};
-        if (lobes_.kind == SurfaceKind::Conductor) {
+        switch (lobes_.kind) {
+        case SurfaceKind::Diffuse:
+        case SurfaceKind::Velvet: break;
+        case SurfaceKind::Conductor:
             delta.weight = fresnel_conductor(wo_.z, lobes_.specular, lobes_.edge_loss());
-        } else if (lobes_.kind == SurfaceKind::Plastic) {
-            delta.weight = lobes_.specular * fresnel_dielectric(wo_.z, eta_);
-        } else if (u < fresnel_dielectric(min_of(wo_.z, 1.0f), eta_)) {
-            delta.weight = lobes_.specular;
-        } else {
-            delta = {refract_at(wo_, up, eta_), lobes_.transmission * (1.0f / (eta_ * eta_))};
+            break;
+        case SurfaceKind::Plastic: delta.weight = lobes_.specular * fresnel_dielectric(wo_.z, eta_); break;
+        case SurfaceKind::Dielectric:
+            if (u < fresnel_dielectric(min_of(wo_.z, 1.0f), eta_))
+                delta.weight = lobes_.specular;
+            else
+                delta = {refract_at(wo_, up, eta_), lobes_.transmission * (1.0f / (eta_ * eta_))};
+            break;
+        case SurfaceKind::Pane:
+            if constexpr (F.has(Feature::ThinPanes)) {
+                if (u < fresnel_pane(min_of(wo_.z, 1.0f), lobes_.ior))
+                    delta.weight = lobes_.specular;
+                else
+                    delta = {-wo_, lobes_.transmission};
+            }
+            break;
         }
         return to_sides(surface, delta);
     }
@@ -103,8 +122,8 @@ public:
         const float above = glm::dot(wi, surface.geometric_normal);
         const float z = glm::dot(wi, frame_.z);
         if (!(above * z > 0.0f)) return 0.0f;
-        if (z < 0.0f && lobes_.kind != SurfaceKind::Dielectric) return 0.0f;
-        return smooth() && lobes_.kind != SurfaceKind::Plastic ? 0.0f : std::fabs(z);
+        if (z < 0.0f && !refracts()) return 0.0f;
+        return is_wide() ? std::fabs(z) : 0.0f;
     }
     /// BSDF times |cos theta_i|, 1/sr, without delta lobes, for a direction whose cosine() is not 0.
     PL_HD Vec3f eval(const SurfacePoint&, Vec3f wi, float cos_i) const {
@@ -113,6 +132,9 @@ public:
         case SurfaceKind::Conductor: return conductor().eval(frame_.to_local(wi));
         case SurfaceKind::Dielectric: return dielectric().eval(frame_.to_local(wi));
         case SurfaceKind::Plastic: return plastic().eval(frame_.to_local(wi));
+        case SurfaceKind::Velvet:
+            if constexpr (F.has(Feature::Velvet)) return velvet().eval(frame_.to_local(wi));
+            break;
         case SurfaceKind::Pane: break;
         }
         return Vec3f{0.0f};
@@ -123,6 +145,9 @@ public:
         case SurfaceKind::Conductor: return conductor().pdf_sa(frame_.to_local(wi));
         case SurfaceKind::Dielectric: return dielectric().pdf_sa(frame_.to_local(wi));
         case SurfaceKind::Plastic: return plastic().pdf_sa(frame_.to_local(wi));
+        case SurfaceKind::Velvet:
+            if constexpr (F.has(Feature::Velvet)) return velvet().pdf_sa(frame_.to_local(wi));
+            break;
         case SurfaceKind::Pane: break;
         }
         return 0.0f;
@@ -135,6 +160,9 @@ public:
         case SurfaceKind::Conductor: return to_world(conductor().sample(u, choice));
         case SurfaceKind::Dielectric: return to_world(dielectric().sample(u, choice));
         case SurfaceKind::Plastic: return to_world(plastic().sample(u, choice));
+        case SurfaceKind::Velvet:
+            if constexpr (F.has(Feature::Velvet)) return to_world(velvet().sample(u, choice));
+            break;
         case SurfaceKind::Pane: break;
         }
         return Vec3f{0.0f};
@@ -151,18 +179,52 @@ private:
         wo_ = frame_.to_local(wo);
         wo_.z = max_of(wo_.z, kGrazing);
         // A coat is on both sides; the back of a dielectric is its inside.
-        const bool is_inside = lobes_.kind == SurfaceKind::Dielectric && !surface.front;
+        const bool is_inside = refracts() && !surface.front;
         eta_ = is_inside ? 1.0f / lobes_.ior : lobes_.ior;
-        if (lobes_.kind == SurfaceKind::Plastic) {
-            returned_ = plastic().reflected_by_coat(wo_.z);
-        } else if (!smooth()) {
-            if (is_inside) tables_ += AlbedoTable::kSize;
-            returned_ = AlbedoTable{tables_}.at(Facets::table_roughness(lobes_.roughness), wo_.z);
-        }
+        if (is_inside && !smooth()) tables_ += AlbedoTable::kSize;
+        returned_ = returned_by_facets();
         albedo_ = directional_albedo();
     }
 
-    PL_HD bool smooth() const { return lobes_.kind != SurfaceKind::Diffuse && lobes_.roughness == 0.0f; }
+    /// Whether a delta lobe is among the lobes.
+    PL_HD bool smooth() const {
+        switch (lobes_.kind) {
+        case SurfaceKind::Diffuse:
+        case SurfaceKind::Velvet: return false;
+        case SurfaceKind::Conductor:
+        case SurfaceKind::Dielectric:
+        case SurfaceKind::Plastic:
+        case SurfaceKind::Pane: break;
+        }
+        return lobes_.roughness == 0.0f;
+    }
+    /// Whether other lobes are.
+    PL_HD bool is_wide() const {
+        switch (lobes_.kind) {
+        case SurfaceKind::Diffuse:
+        case SurfaceKind::Plastic:
+        case SurfaceKind::Velvet: return true;
+        case SurfaceKind::Conductor:
+        case SurfaceKind::Dielectric:
+        case SurfaceKind::Pane: break;
+        }
+        return lobes_.roughness > 0.0f;
+    }
+    PL_HD float returned_by_facets() const {
+        switch (lobes_.kind) {
+        case SurfaceKind::Diffuse:
+        case SurfaceKind::Pane: break;
+        case SurfaceKind::Plastic: return plastic().reflected_by_coat(wo_.z);
+        case SurfaceKind::Velvet:
+            if constexpr (F.has(Feature::Velvet)) return velvet().reflected_by_fibers(wo_.z);
+            break;
+        case SurfaceKind::Conductor:
+        case SurfaceKind::Dielectric:
+            if (smooth()) break;
+            return AlbedoTable{tables_}.at(Facets::table_roughness(lobes_.roughness), wo_.z);
+        }
+        return 1.0f;
+    }
     PL_HD Vec3f to_world(Vec3f local) const {
         return is_black(local) ? local : glm::normalize(frame_.to_world(local));
     }
@@ -172,11 +234,6 @@ private:
         delta.wi = glm::normalize(frame_.to_world(delta.wi));
         if ((glm::dot(delta.wi, surface.geometric_normal) < 0.0f) != passes) delta.weight = Vec3f{0.0f};
         return delta;
-    }
-    PL_HD DeltaDirection sample_pane(const SurfacePoint& surface, float u) const {
-        if (u < fresnel_pane(min_of(wo_.z, 1.0f), lobes_.ior))
-            return to_sides(surface, {reflect_at(wo_, {0.0f, 0.0f, 1.0f}), lobes_.specular});
-        return to_sides(surface, {-wo_, lobes_.transmission});
     }
     PL_HD Ggx ggx() const { return IsotropicFacets::ggx(lobes_.roughness); }
 
@@ -196,6 +253,10 @@ private:
     PL_HD Plastic plastic() const {
         return {ggx(), reflectance_, lobes_.specular, eta_, {tables_}, lobes_.roughness, wo_, returned_};
     }
+    PL_HD Velvet velvet() const {
+        const float roughness = max_of(lobes_.roughness, SheenFibers::kLeastRoughness);
+        return {reflectance_, lobes_.specular, roughness, {tables_}, wo_, returned_};
+    }
     PL_HD Vec3f directional_albedo() const {
         switch (lobes_.kind) {
         case SurfaceKind::Diffuse: return reflectance_;
@@ -204,6 +265,9 @@ private:
         case SurfaceKind::Dielectric:
         case SurfaceKind::Pane: return glm::max(lobes_.specular, lobes_.transmission);
         case SurfaceKind::Plastic: return plastic().albedo();
+        case SurfaceKind::Velvet:
+            if constexpr (F.has(Feature::Velvet)) return velvet().albedo();
+            break;
         }
         return Vec3f{0.0f};
     }
@@ -218,12 +282,8 @@ private:
     Vec3f albedo_{0.0f};
 };
 
-using LayeredBsdf = LayeredBsdfOf<IsotropicFacets>;
-
 template <FeatureSet F>
-using FacetsOf = std::conditional_t<F.has(Feature::Anisotropy), AnisotropicFacets, IsotropicFacets>;
-template <FeatureSet F>
-using Bsdf = std::conditional_t<F.has_any(kLobeFeatures), LayeredBsdfOf<FacetsOf<F>>, LambertBsdf>;
+using Bsdf = std::conditional_t<F.has_any(kLobeFeatures), LayeredBsdf<F.common(kSurfaceFeatures)>, LambertBsdf>;
 
 /// The directions of a material's facets at a surface point, for the facets of F.
 template <FeatureSet F>

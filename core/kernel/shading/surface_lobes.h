@@ -13,11 +13,12 @@ enum class SurfaceKind : std::uint32_t {
     Dielectric,  ///< glass, water, smooth or rough: reflection and refraction
     Plastic,     ///< Lambert base under a smooth or rough dielectric coat
     Pane,        ///< thin sheet of clear glass: reflects, and lets light straight through
+    Velvet,      ///< Lambert base under fibers that reflect towards the horizon
 };
 
 struct SurfaceLobes {
     SurfaceKind kind = SurfaceKind::Diffuse;
-    float roughness = 0.0f;    ///< in [0, 1]: sqrt(alpha) of GGX; 0: delta lobes
+    float roughness = 0.0f;    ///< in [0, 1]: sqrt(alpha) of GGX, or of SheenFibers; 0: delta lobes
     float ior = 1.5f;          ///< index of refraction, inside over outside
     std::uint32_t table = 0;   ///< offset in SceneView::directional_albedo, see AlbedoTable
     Vec3f specular{1.0f};      ///< conductor: reflectance at normal incidence; others: tint of the reflection

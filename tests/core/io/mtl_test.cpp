@@ -170,7 +170,8 @@ TEST_CASE("The table of illumination models") {
         Case{both + "Pm 0\n", SurfaceKind::Plastic}, Case{"Kd 0.8\nPc 1\n", SurfaceKind::Plastic},
         Case{both + "illum 7\nPl_surface diffuse\n", SurfaceKind::Diffuse},
         Case{"Kd 0.8\nPl_surface dielectric\n", SurfaceKind::Dielectric},
-        Case{"Kd 0.8\nd 0.5\nPl_surface pane\n", SurfaceKind::Pane});
+        Case{"Kd 0.8\nd 0.5\nPl_surface pane\n", SurfaceKind::Pane},
+        Case{"Kd 0.8\nKs 0.5 0.5 0.5\nPl_surface velvet\n", SurfaceKind::Velvet});
     INFO(sample.lines);
     CHECK(material(sample.lines).kind == sample.kind);
 }

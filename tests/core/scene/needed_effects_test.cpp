@@ -3,6 +3,7 @@
 #include "core/scene/needed_effects.h"
 
 #include "core/scene/pack_scene.h"
+#include "core/scene/surface_info.h"
 #include "tests/support/catch.hpp"
 #include "tests/support/scenes/shapes.h"
 
@@ -11,16 +12,13 @@ using namespace pl::test;
 
 namespace {
 
-constexpr SurfaceKind kKinds[] = {SurfaceKind::Diffuse, SurfaceKind::Conductor, SurfaceKind::Dielectric,
-                                  SurfaceKind::Plastic, SurfaceKind::Pane};
-
 /// A box of a few materials, each diffuse two times out of three.
 SceneDescription random_scene(Uniforms& random) {
     SceneDescription scene;
     const std::uint32_t materials = 1 + random.below(3);
     for (std::uint32_t i = 0; i < materials; ++i) {
         MaterialDescription material = gray();
-        if (random.below(3) == 0) material.kind = kKinds[random.below(std::size(kKinds))];
+        if (random.below(3) == 0) material.kind = kSurfaces[random.below(kSurfaces.size())].choice.value;
         if (material.kind == SurfaceKind::Dielectric && random.below(2) == 0) material.absorption = glm::vec3(1.0f);
         // One table for all, so that packing stays quick.
         if (material.kind == SurfaceKind::Conductor && random.below(2) == 0) material.roughness = 0.5f;
@@ -56,6 +54,7 @@ FeatureSet needed_by_look(const SceneDescription& scene) {
         set = set.with(m.roughness > 0.0f ? Feature::Rough : Feature::Specular);
         if (m.kind == SurfaceKind::Plastic) set = set.with(Feature::Plastic);
         if (m.kind == SurfaceKind::Pane) set = set.with(Feature::ThinPanes);
+        if (m.kind == SurfaceKind::Velvet) set = set.with(Feature::Velvet);
         if (m.absorbs()) set = set.with(Feature::Absorption);
     }
     if (scene.environment != glm::vec3{0.0f}) set = set.with(Feature::Environment);
@@ -83,7 +82,7 @@ TEST_CASE("The scan of a scene finds the effects of all its materials") {
     // All but light samples, images, the lens and instances, which the random scenes have none of.
     CHECK(seen == features(Feature::SmoothNormals, Feature::Environment, Feature::Specular, Feature::Rough,
                            Feature::Plastic, Feature::CutOuts, Feature::EnvironmentMap, Feature::Absorption,
-                           Feature::ThinPanes, Feature::Blends, Feature::Anisotropy)
+                           Feature::ThinPanes, Feature::Blends, Feature::Anisotropy, Feature::Velvet)
                       .bits);
 }
 

@@ -126,7 +126,7 @@ TEST_CASE("An environment is an effect") {
                                                         "specular", "rough", "plastic", "textures", "cut-outs",
                                                         "environment-map", "thin-lens", "many-lights", "normal-maps",
                                                         "delta-lights", "absorption", "thin-panes", "blends",
-                                                        "anisotropy", "instances"});
+                                                        "anisotropy", "instances", "velvet"});
     CHECK(effect_names(FeatureSet{}).empty());
 }
 

@@ -102,7 +102,7 @@ TEST_CASE("Each kind of fault of surfaces, textures, far lights and lenses is na
         Case{[](SceneDescription& s) { s.materials[0].roughness = 1.5f; }, "roughness 1.5"},
         Case{[](SceneDescription& s) { s.materials[0].roughness = kNan; }, "roughness nan"},
         Case{[](SceneDescription& s) { s.materials[0].anisotropy = 1.0f; }, "anisotropy 1 is not within [0, 0.99]"},
-        Case{[](SceneDescription& s) { s.materials[0].rotation_deg = kNan; }, "the rotation is not finite"},
+        Case{[](SceneDescription& s) { s.materials[0].rotation_deg = kNan; }, "rotation nan is not finite"},
         Case{[](SceneDescription& s) { s.materials[0].ior = 0.9f; }, "index of refraction 0.9 is not within [1, 4]"},
         Case{[](SceneDescription& s) { s.materials[0].specular.x = 2.0f; }, "specular (2"},
         Case{[](SceneDescription& s) { s.materials[0].transmission.x = kNan; }, "transmission (nan"},

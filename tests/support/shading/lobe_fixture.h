@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "core/kernel/shading/bsdf.h"
-#include "core/scene/directional_albedo.h"
+#include "core/scene/surface_info.h"
 #include "tests/support/scenes/shapes.h"
 #include "tests/support/statistics/sampling_rule.h"
 
@@ -18,26 +18,15 @@ inline Vec3f random_above(Uniforms& random) {
 }
 
 /// A horizontal surface at the origin with one kind of lobes.
-template <class Facets>
+template <FeatureSet F>
 class LobeSurfaceOf {
 public:
-    using Grain = typename Facets::Grain;
+    using Grain = typename Bsdf<F>::Grain;
 
     /// `albedo` is that of the guided lobes, see pack_scene().
     explicit LobeSurfaceOf(const SurfaceLobes& lobes, Vec3f albedo = Vec3f{0.0f}, const Grain& grain = {})
         : lobes_(lobes), albedo_(albedo), grain_(grain) {
-        switch (lobes.kind) {
-        case SurfaceKind::Diffuse:
-        case SurfaceKind::Pane: break;
-        case SurfaceKind::Conductor: table_ = lossless_albedo(); break;
-        case SurfaceKind::Plastic: table_ = coat_albedo(lobes.ior); break;
-        case SurfaceKind::Dielectric: {
-            table_ = glass_albedo(lobes.ior);
-            const std::vector<float> inside = glass_albedo(1.0f / lobes.ior);
-            table_.insert(table_.end(), inside.begin(), inside.end());
-            break;
-        }
-        }
+        if (const auto tables = surface_info(lobes.kind).tables) table_ = tables(lobes.ior);
     }
 
     static SurfacePoint point(bool front = true) {
@@ -45,7 +34,7 @@ public:
         point.front = front;
         return point;
     }
-    LayeredBsdfOf<Facets> from(Vec3f wo, bool front = true) const {
+    Bsdf<F> from(Vec3f wo, bool front = true) const {
         return {point(front), wo, albedo_, lobes_, {table_.data(), static_cast<std::uint32_t>(table_.size())},
                 grain_};
     }
@@ -56,7 +45,8 @@ private:
     Grain grain_;
     std::vector<float> table_;
 };
-using LobeSurface = LobeSurfaceOf<IsotropicFacets>;
+using LobeSurface = LobeSurfaceOf<kSurfaceFeatures.without(Feature::Anisotropy)>;
+using BrushedSurface = LobeSurfaceOf<kSurfaceFeatures>;
 
 /// Unit direction in the xz plane.
 inline Vec3f tilted(float cos_theta) { return {std::sqrt(1.0f - cos_theta * cos_theta), 0.0f, cos_theta}; }
@@ -105,9 +95,9 @@ inline constexpr SamplingTest kQuickSampling{250000, 0.06};
 inline constexpr SamplingTest kFineSampling{1000000, 0.03};
 
 /// S3 for the lobes of a surface; directions to the wrong side are left out of both.
-template <class Facets>
-Decision check_sampling(const LobeSurfaceOf<Facets>& surface, Vec3f wo, bool front, SamplingTest test) {
-    const LayeredBsdfOf<Facets> bsdf = surface.from(wo, front);
+template <FeatureSet F>
+Decision check_sampling(const LobeSurfaceOf<F>& surface, Vec3f wo, bool front, SamplingTest test) {
+    const Bsdf<F> bsdf = surface.from(wo, front);
     const SurfacePoint point = LobeSurface::point(front);
     const auto probabilities = SphereBins::integrate(
         [&](Vec3f wi) { return bsdf.cosine(point, wi) > 0.0f ? bsdf.pdf_sa(point, wi) : 0.0f; });
@@ -125,9 +115,9 @@ inline Decision check_sampling(const LobeSurface& surface, float cos_o, bool fro
 }
 
 /// Weights of samples: their mean is the reflectance for light from all directions.
-template <class Facets>
-Moments returned_light(const LobeSurfaceOf<Facets>& surface, Vec3f wo, bool front, int samples) {
-    const LayeredBsdfOf<Facets> bsdf = surface.from(wo, front);
+template <FeatureSet F>
+Moments returned_light(const LobeSurfaceOf<F>& surface, Vec3f wo, bool front, int samples) {
+    const Bsdf<F> bsdf = surface.from(wo, front);
     const SurfacePoint point = LobeSurface::point(front);
     const double p = static_cast<double>(bsdf.delta_probability());
     Uniforms random(5);
@@ -137,8 +127,7 @@ Moments returned_light(const LobeSurfaceOf<Facets>& surface, Vec3f wo, bool fron
         const Vec2f u = random.square();
         double weight = 0.0;
         if (static_cast<double>(choice) < p) {
-            weight =
-                static_cast<double>(bsdf.template sample_delta<kEveryFeature>(point, random.next()).weight.x) / p;
+            weight = static_cast<double>(bsdf.sample_delta(point, random.next()).weight.x) / p;
         } else {
             const Vec3f wi = bsdf.sample(point, u, random.next());
             const float pdf_sa = bsdf.pdf_sa(point, wi);

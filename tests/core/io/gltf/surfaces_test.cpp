@@ -227,6 +227,35 @@ TEST_CASE("gltf materials: a clear coat on dielectrics") {
     CHECK(is_told(blend, "a clear coat on metal"));
 }
 
+TEST_CASE("gltf materials: sheen makes velvet of dielectrics") {
+    const Json sheen = {{"sheenColorFactor", {0.9, 0.5, 0.25}}, {"sheenRoughnessFactor", 0.5}};
+    Json cloth = extended("sheen", sheen);
+    cloth["pbrMetallicRoughness"] = {{"metallicFactor", 0}, {"baseColorFactor", {0.1, 0.2, 0.3, 1}}};
+    const SceneDescription scene = load(cloth);
+    REQUIRE(scene.materials.size() == 1);
+    CHECK(scene.materials[0].kind == SurfaceKind::Velvet);
+    CHECK(scene.materials[0].albedo == glm::vec3(0.1f, 0.2f, 0.3f));
+    CHECK(scene.materials[0].specular == glm::vec3(0.9f, 0.5f, 0.25f));
+    CHECK(scene.materials[0].roughness == 0.5f);
+    CHECK(is_told(scene, "sheen takes the place of the reflection of its base"));
+    Json& extension = cloth["extensions"]["KHR_materials_sheen"];
+    extension.erase("sheenRoughnessFactor");
+    CHECK(surface(cloth).roughness == SheenFibers::kLeastRoughness);
+    CHECK(is_told(load(cloth), "sheen of a roughness below 0.26 is shown as one of 0.26"));
+    extension["sheenColorFactor"] = {0, 0, 0};
+    CHECK(surface(cloth).kind == SurfaceKind::Plastic);
+    extension["sheenColorTexture"] = {{"index", 0}};
+    CHECK(is_told(load(cloth), "images of the color of sheen are left out"));
+    extension = sheen;
+    cloth["extensions"]["KHR_materials_clearcoat"] = {{"clearcoatFactor", 1}};
+    CHECK(surface(cloth).kind == SurfaceKind::Plastic);
+    CHECK(is_told(load(cloth), "sheen under a clear coat is left out"));
+    Json metal = extended("sheen", sheen);
+    metal["pbrMetallicRoughness"]["metallicFactor"] = 1;
+    CHECK(surface(metal).kind == SurfaceKind::Conductor);
+    CHECK(is_told(load(metal), "sheen on metal or glass is left out"));
+}
+
 TEST_CASE("gltf materials: emission with its strength, on both sides if the surface has two") {
     Json lamp = extended("emissive_strength", {{"emissiveStrength", 20}});
     lamp["emissiveFactor"] = {1, 0.5, 0};
@@ -255,9 +284,8 @@ TEST_CASE("gltf materials: unlit, specular-glossiness, and content that is left 
     Json metal = gloss;
     metal["specularFactor"] = {0.9, 0.8, 0.7};
     CHECK(surface(extended("pbrSpecularGlossiness", metal)).specular == glm::vec3(0.9f, 0.8f, 0.7f));
-    for (const auto& [name, words] : {std::pair{"sheen", "sheen is left out"},
-                                      {"iridescence", "iridescence is left out"},
-                                      {"dispersion", "dispersion"}})
+    for (const auto& [name, words] :
+         {std::pair{"iridescence", "iridescence is left out"}, {"dispersion", "dispersion"}})
         CHECK(is_told(load(extended(name, Json::object())), words));
     const SceneDescription wild = load(metal_rough({{"roughnessFactor", 7}, {"baseColorFactor", {2, 0, 0, 1}}}));
     CHECK(wild.materials[0].roughness == 1.0f);

@@ -120,6 +120,24 @@ TEST_CASE("mitsuba: anisotropic metals, and others that are shown as isotropic")
     CHECK(principled.anisotropy == Approx(0.45));
 }
 
+TEST_CASE("mitsuba: the sheen of a principled surface without another reflection is that of velvet") {
+    const std::string cloth = "<bsdf type=\"principled\"><rgb name=\"base_color\" value=\"0.5, 0.25, 0\"/><float "
+                              "name=\"sheen\" value=\"0.6\"/>";
+    const std::string dull = cloth + "<float name=\"specular\" value=\"0\"/>";
+    const MaterialDescription velvet = surface(dull + "</bsdf>");
+    CHECK(velvet.kind == SurfaceKind::Velvet);
+    CHECK(velvet.albedo == glm::vec3(0.5f, 0.25f, 0.0f));
+    CHECK(velvet.specular.x == Approx(0.1));
+    CHECK(velvet.specular.z == Approx(0.1));
+    const MaterialDescription tinted = surface(dull + "<float name=\"sheen_tint\" value=\"1\"/></bsdf>");
+    CHECK(tinted.specular.x == Approx(2.0f * tinted.specular.y));
+    CHECK(luminance(tinted.specular) == Approx(0.1));
+    CHECK(tinted.specular.z == 0.0f);
+    const SceneDescription shiny = load_mitsuba_text("<shape type=\"rectangle\">" + cloth + "</bsdf></shape>");
+    CHECK(shiny.materials[0].kind == SurfaceKind::Plastic);
+    CHECK(is_told(shiny, "the sheen of principled surfaces whose specular is not 0 is left out"));
+}
+
 TEST_CASE("mitsuba: the inside of glass absorbs, by name or in its place, and other media are told") {
     const auto shape = [](const std::string& inside, const std::string& bsdf = "dielectric") {
         return "<shape type=\"cube\"><bsdf type=\"" + bsdf + "\"/>" + inside + "</shape>";

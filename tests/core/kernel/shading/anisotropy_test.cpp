@@ -13,7 +13,6 @@ using namespace pl::test;
 
 namespace {
 
-using BrushedSurface = LobeSurfaceOf<AnisotropicFacets>;
 using BrushedGgx = GgxOf<AnisotropicWidth>;
 
 constexpr double kTwoPi = 2.0 * 3.14159265358979323846;

@@ -36,7 +36,7 @@ double worst_error(FacetLight light, double eta, const std::vector<float>& value
 }
 
 /// Integral of f cos over the directions above, by midpoints that are closest at the horizon and around the mirrored direction's azimuth.
-double returned_light(const LayeredBsdf& bsdf) {
+double returned_light(const auto& bsdf) {
     constexpr int kHeights = 400;
     constexpr int kSectors = 240;
     const SurfacePoint point = LobeSurface::point();
