@@ -21,7 +21,7 @@ struct ObservedField : F {
     ObservedChoices* choices = nullptr;
 
     Vec3f sample(const typename F::Location& location, const SurfacePoint& surface,
-                 const ScatterNumbers& numbers) const {
+                 const ScatterUniforms& numbers) const {
         choices->samples_field = true;
         return F::sample(location, surface, numbers);
     }
@@ -44,13 +44,13 @@ struct Observed : M {
     }
 
     DirectionSample sample_direction(const Vertex& vertex, const SurfacePoint& surface,
-                                     const ScatterNumbers& numbers) const {
+                                     const ScatterUniforms& numbers) const {
         choices->samples_field = false;
         return choices->direction = M::sample_direction(vertex, surface, numbers);
     }
     template <FeatureSet B>
     DirectionSample sample_direction(const Vertex& vertex, const SurfacePoint& surface, const LayeredBsdf<B>& bsdf,
-                                     const ScatterNumbers& numbers) const {
+                                     const ScatterUniforms& numbers) const {
         choices->samples_field = false;
         return choices->direction = M::sample_direction(vertex, surface, bsdf, numbers);
     }

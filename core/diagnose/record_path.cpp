@@ -127,7 +127,7 @@ private:
         State state = before;
         if (++state.vertices >= context_.settings.max_depth) return PathEnd::DepthLimit;
         if (point.bsdf.is_specular()) count_specular(context_.settings, state);
-        const VertexNumbers numbers = draw_vertex_numbers<kAll>(context_.settings, before);
+        const VertexUniforms numbers = draw_vertex_uniforms<kAll>(context_.settings, before);
         if (context_.settings.next_event != 0) vertex.light = light_sample(point, numbers.light, before);
         const float weight =
             play_roulette(method_, context_.settings, point.vertex, point.bsdf.albedo(), numbers.scatter.w, state);

@@ -19,7 +19,7 @@
 
 namespace pl {
 
-/// The arguments of Rng::draw, and of vertex_numbers(), that a batch has in common.
+/// The arguments of Rng::draw, and of vertex_uniforms(), that a batch has in common.
 struct DrawKey {
     std::uint64_t seed = 0;
     Stream stream = Stream::Picture;
@@ -33,7 +33,7 @@ struct alignas(64) CounterGroup {
 };
 
 /// Four uniform numbers in [0, 1) per lane.
-struct alignas(64) NumberGroup {
+struct alignas(64) UniformGroup {
     float rows[4][kGroupSize] = {};
 
     Vec4f get(std::uint32_t lane) const { return {rows[0][lane], rows[1][lane], rows[2][lane], rows[3][lane]}; }
@@ -58,8 +58,8 @@ struct alignas(64) VertexGroup {
     std::uint32_t primitive[kGroupSize] = {};
     VectorGroup albedo;
     VectorGroup throughput;  ///< of the path before the roulette at the vertex
-    VectorGroup scatter;     ///< x, y, z of ScatterNumbers::u
-    NumberGroup light;       ///< VertexNumbers::light
+    VectorGroup scatter;     ///< x, y, z of ScatterUniforms::u
+    UniformGroup light;       ///< VertexUniforms::light
 };
 
 /// A scene and the volumes placed in it, as plain pointers; without volumes only the first three members are needed.
@@ -286,8 +286,8 @@ SurfaceRows surface_rows(const SceneView& scene) {
 struct BlockRows {
     const HitGroup* hits;
     const PointGroup* points;  ///< at the hits
-    const NumberGroup* scatter;
-    const NumberGroup* light;  ///< null: lights are not sampled
+    const UniformGroup* scatter;
+    const UniformGroup* light;  ///< null: lights are not sampled
     CounterGroup* counters;
     PathGroup* paths;
     VertexGroup* vertices;
@@ -337,7 +337,7 @@ struct alignas(64) OpenGroup {
 };
 
 /// Numbers per path of a block.
-struct alignas(64) BlockNumbers {
+struct alignas(64) BlockFloats {
     float of[kPathBlock];
 };
 

@@ -23,14 +23,14 @@ struct LaneKernels {
     void (*find_occluding_instances)(const WideInstances& scene, const RayGroup* rays, OcclusionMask* masks,
                                      std::uint32_t count);
     /// Evaluates Rng::draw() for every counter.
-    void (*draw)(const DrawKey& key, const CounterGroup* counters, NumberGroup* numbers, std::uint32_t groups);
-    /// Evaluates vertex_numbers() for every counter.
-    void (*draw_vertices)(const DrawKey& key, const CounterGroup* counters, NumberGroup* numbers,
+    void (*draw)(const DrawKey& key, const CounterGroup* counters, UniformGroup* uniforms, std::uint32_t groups);
+    /// Evaluates vertex_uniforms() for every counter.
+    void (*draw_vertices)(const DrawKey& key, const CounterGroup* counters, UniformGroup* uniforms,
                           std::uint32_t groups);
     /// Directions of camera rays through the pixels of the counters, see camera_ray(), for a pinhole. `numbers`: the first ones of the
     /// pixels' sequences.
     void (*find_camera_directions)(const Camera& camera, const PixelGrid& grid, const CounterGroup* counters,
-                                   const NumberGroup* numbers, VectorGroup* directions, std::uint32_t groups);
+                                   const UniformGroup* uniforms, VectorGroup* directions, std::uint32_t groups);
     /// The surface points at hits, and the places of their volumes.
     void (*find_points)(const PlacementRows& scene, const RayGroup* rays, const HitGroup* hits, PointGroup* points,
                         std::uint32_t groups);
@@ -96,11 +96,11 @@ struct LaneKernels {
     /// a volume. Returns those that have one, and marks those whose volume has no known node: their sites and normals are arbitrary.
     BlockBits (*look_up_volumes)(const VolumeRows& field, const LearningRows& rows, BlockBits& unknown);
     /// Contribution estimates at the vertices in `reached`.
-    void (*estimate_contributions)(const LearningRows& rows, const BlockBits& reached, BlockNumbers& estimates);
+    void (*estimate_contributions)(const LearningRows& rows, const BlockBits& reached, BlockFloats& estimates);
     /// Targets of the training samples that a block's segments complete. `emitted`: see TableLanes::complete(); `most`: the largest
     /// target. Marks the samples, and those that are clamped.
-    void (*complete_samples)(const LearningRows& rows, bool is_indirect, float most, const BlockNumbers& emitted,
-                             BlockNumbers& targets, BlockBits& samples, BlockBits& clamped);
+    void (*complete_samples)(const LearningRows& rows, bool is_indirect, float most, const BlockFloats& emitted,
+                             BlockFloats& targets, BlockBits& samples, BlockBits& clamped);
     /// Opens training samples for the paths in `scattered`, and none for the others.
     void (*open_samples)(const LearningRows& rows, const DirectionGroup* directions, const BlockBits& scattered);
     /// Whether any cell of a volume has new training samples.

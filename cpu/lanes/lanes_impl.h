@@ -42,19 +42,19 @@ void find_occluding_instances(const WideInstances& scene, const RayGroup* rays, 
     occluding_instances(scene, rays, masks, count);
 }
 
-void draw(const DrawKey& key, const CounterGroup* counters, NumberGroup* numbers, std::uint32_t groups) {
-    draw_groups(key, counters, numbers, groups);
+void draw(const DrawKey& key, const CounterGroup* counters, UniformGroup* uniforms, std::uint32_t groups) {
+    draw_groups(key, counters, uniforms, groups);
 }
 
-void draw_vertices(const DrawKey& key, const CounterGroup* counters, NumberGroup* numbers, std::uint32_t groups) {
-    draw_vertex_groups(key, counters, numbers, groups);
+void draw_vertices(const DrawKey& key, const CounterGroup* counters, UniformGroup* uniforms, std::uint32_t groups) {
+    draw_vertex_groups(key, counters, uniforms, groups);
 }
 
 void find_camera_directions(const Camera& camera, const PixelGrid& grid, const CounterGroup* counters,
-                            const NumberGroup* numbers, VectorGroup* directions, std::uint32_t groups) {
+                            const UniformGroup* uniforms, VectorGroup* directions, std::uint32_t groups) {
     for (std::uint32_t group = 0; group < groups; ++group)
         for (std::uint32_t first = 0; first < kGroupSize; first += kLaneWidth)
-            CameraLanes(camera, grid, first).find(counters[group], numbers[group], directions[group]);
+            CameraLanes(camera, grid, first).find(counters[group], uniforms[group], directions[group]);
 }
 
 void find_points(const PlacementRows& scene, const RayGroup* rays, const HitGroup* hits, PointGroup* points,
@@ -201,14 +201,14 @@ BlockBits look_up_volumes(const VolumeRows& field, const LearningRows& rows, Blo
     return served;
 }
 
-void estimate_contributions(const LearningRows& rows, const BlockBits& reached, BlockNumbers& estimates) {
+void estimate_contributions(const LearningRows& rows, const BlockBits& reached, BlockFloats& estimates) {
     for_table_lanes(rows, [&](const TableLanes& lanes, std::uint32_t group) {
         lanes.estimate(reached.groups[group], estimates.of + group * kGroupSize);
     });
 }
 
-void complete_samples(const LearningRows& rows, bool is_indirect, float most, const BlockNumbers& emitted,
-                      BlockNumbers& targets, BlockBits& samples, BlockBits& clamped) {
+void complete_samples(const LearningRows& rows, bool is_indirect, float most, const BlockFloats& emitted,
+                      BlockFloats& targets, BlockBits& samples, BlockBits& clamped) {
     for_table_lanes(rows, [&](const TableLanes& lanes, std::uint32_t group) {
         const TableLanes::Completed completed =
             lanes.complete(is_indirect, most, emitted.of + group * kGroupSize, targets.of + group * kGroupSize);

@@ -74,11 +74,11 @@ private:
     const Words<Material> material_;
 };
 
-PL_INLINE void copy_rows(const NumberGroup& numbers, VectorGroup& to) {
+PL_INLINE void copy_rows(const UniformGroup& uniforms, VectorGroup& to) {
     for (std::uint32_t lane = 0; lane < kGroupSize; lane += kLaneWidth) {
-        store_lanes(load_lanes<LaneFloat>(numbers.rows[0] + lane), to.x + lane);
-        store_lanes(load_lanes<LaneFloat>(numbers.rows[1] + lane), to.y + lane);
-        store_lanes(load_lanes<LaneFloat>(numbers.rows[2] + lane), to.z + lane);
+        store_lanes(load_lanes<LaneFloat>(uniforms.rows[0] + lane), to.x + lane);
+        store_lanes(load_lanes<LaneFloat>(uniforms.rows[1] + lane), to.y + lane);
+        store_lanes(load_lanes<LaneFloat>(uniforms.rows[2] + lane), to.z + lane);
     }
 }
 
@@ -113,12 +113,12 @@ public:
         : GroupRows(first), vertices_(block.vertices[group]), paths_(block.paths[group]) {}
 
     /// Returns the lanes whose paths go on. `estimates`: contribution estimates; null: PathState::survival.
-    PL_INLINE std::uint32_t play_roulette(const PathSettings& settings, const NumberGroup& numbers,
+    PL_INLINE std::uint32_t play_roulette(const PathSettings& settings, const UniformGroup& uniforms,
                                           const float* estimates) const {
         const LaneFloat survival = row(paths_.survival) * max_component(vector(vertices_.albedo));
         const LaneInt plays = load_lanes<LaneUint>(paths_.vertices + first()) >= settings.roulette_start;
         const RouletteRound<Lanes> round = pl::play_roulette<Lanes>(
-            settings, estimates == nullptr ? survival : row(estimates), survival, row(numbers.rows[3]));
+            settings, estimates == nullptr ? survival : row(estimates), survival, row(uniforms.rows[3]));
         const LaneFloat weight = select(plays, round.weight, broadcast(1.0f));
         store(weight, paths_.roulette_weight);
         store(select(plays, round.survival, survival), paths_.survival);
@@ -180,7 +180,7 @@ public:
     PL_INLINE CameraLanes(const Camera& camera, const PixelGrid& grid, std::uint32_t first)
         : GroupRows(first), camera_(camera), grid_(grid) {}
 
-    PL_INLINE void find(const CounterGroup& counters, const NumberGroup& numbers, VectorGroup& directions) const {
+    PL_INLINE void find(const CounterGroup& counters, const UniformGroup& uniforms, VectorGroup& directions) const {
         std::int32_t x[kLaneWidth], y[kLaneWidth];
         for (std::uint32_t lane = 0; lane < kLaneWidth; ++lane) {
             const std::uint32_t pixel = counters.pixel[first() + lane];
@@ -188,7 +188,7 @@ public:
             y[lane] = static_cast<std::int32_t>(pixel / grid_.width);
         }
         const Real2<Lanes> in_pixel =
-            film_point<Lanes>({row(numbers.rows[0]), row(numbers.rows[1])}, sequence_steps(grid_.sample));
+            film_point<Lanes>({row(uniforms.rows[0]), row(uniforms.rows[1])}, sequence_steps(grid_.sample));
         const Real2<Lanes> film{Lanes::to_real(load_lanes<LaneInt>(x)) + in_pixel.x,
                                 Lanes::to_real(load_lanes<LaneInt>(y)) + in_pixel.y};
         const Vec2f resolution{static_cast<float>(grid_.width), static_cast<float>(grid_.height)};

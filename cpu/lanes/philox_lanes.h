@@ -30,20 +30,20 @@ PL_INLINE PhiloxWords<LaneUint> bits_lanes(const DrawKey& key, const CounterGrou
                       [](std::uint32_t factor, LaneUint words) { return multiply_lanes(factor, words); });
 }
 
-PL_INLINE void store_numbers(const PhiloxWords<LaneUint>& bits, NumberGroup& numbers, std::uint32_t first) {
-    for (int i = 0; i < 4; ++i) store_lanes(to_unit<Lanes>(bits.v[i]), numbers.rows[i] + first);
+PL_INLINE void store_uniforms(const PhiloxWords<LaneUint>& bits, UniformGroup& uniforms, std::uint32_t first) {
+    for (int i = 0; i < 4; ++i) store_lanes(to_unit<Lanes>(bits.v[i]), uniforms.rows[i] + first);
 }
 
-PL_INLINE void draw_groups(const DrawKey& key, const CounterGroup* counters, NumberGroup* numbers,
+PL_INLINE void draw_groups(const DrawKey& key, const CounterGroup* counters, UniformGroup* uniforms,
                            std::uint32_t groups) {
     for (std::uint32_t group = 0; group < groups; ++group)
         for (std::uint32_t first = 0; first < kGroupSize; first += kLaneWidth) {
             const auto sample = load_lanes<LaneUint>(counters[group].sample + first);
-            store_numbers(bits_lanes(key, counters[group], first, sample), numbers[group], first);
+            store_uniforms(bits_lanes(key, counters[group], first, sample), uniforms[group], first);
         }
 }
 
-/// Evaluates vertex_numbers() for the lanes of a group from lane `first`.
+/// Evaluates vertex_uniforms() for the lanes of a group from lane `first`.
 PL_INLINE PhiloxWords<LaneUint> vertex_bits_lanes(const DrawKey& key, const CounterGroup& counters,
                                                   std::uint32_t first) {
     const auto sample = load_lanes<LaneUint>(counters.sample + first);
@@ -58,11 +58,11 @@ PL_INLINE PhiloxWords<LaneUint> vertex_bits_lanes(const DrawKey& key, const Coun
     return bits;
 }
 
-PL_INLINE void draw_vertex_groups(const DrawKey& key, const CounterGroup* counters, NumberGroup* numbers,
+PL_INLINE void draw_vertex_groups(const DrawKey& key, const CounterGroup* counters, UniformGroup* uniforms,
                                   std::uint32_t groups) {
     for (std::uint32_t group = 0; group < groups; ++group)
         for (std::uint32_t first = 0; first < kGroupSize; first += kLaneWidth)
-            store_numbers(vertex_bits_lanes(key, counters[group], first), numbers[group], first);
+            store_uniforms(vertex_bits_lanes(key, counters[group], first), uniforms[group], first);
 }
 
 }  // namespace

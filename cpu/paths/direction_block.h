@@ -21,9 +21,9 @@ public:
     /// Told that no vertex is in the block.
     void clear() {}
     /// Told that vertex i of the block is `from`.
-    void add(const auto& /*block*/, std::uint32_t i, const ScatterPoint<F, M>& from, const ScatterNumbers& numbers) {
+    void add(const auto& /*block*/, std::uint32_t i, const ScatterPoint<F, M>& from, const ScatterUniforms& uniforms) {
         surfaces_[i] = from.surface;
-        numbers_[i] = numbers;
+        uniforms_[i] = uniforms;
     }
     /// Told that all vertices are added.
     void complete(const auto& /*block*/) {}
@@ -41,7 +41,7 @@ public:
     void sample(const auto& block) {
         block.for_continuing_lambert([&](std::uint32_t i) {
             directions_[i / kGroupSize].set(i % kGroupSize,
-                                            method_.sample_direction(block.vertex(i), surfaces_[i], numbers_[i]));
+                                            method_.sample_direction(block.vertex(i), surfaces_[i], uniforms_[i]));
         });
     }
     const DirectionGroup* groups() const { return directions_; }
@@ -49,7 +49,7 @@ public:
 private:
     const M& method_;
     SurfacePoint surfaces_[kPathBlock];
-    ScatterNumbers numbers_[kPathBlock];
+    ScatterUniforms uniforms_[kPathBlock];
     DirectionGroup directions_[kBlockGroups];
 };
 
@@ -59,7 +59,7 @@ public:
     explicit DirectionBlock(const M&) {}
 
     void clear() {}
-    void add(const auto&, std::uint32_t, const ScatterPoint<F, M>&, const ScatterNumbers&) {}
+    void add(const auto&, std::uint32_t, const ScatterPoint<F, M>&, const ScatterUniforms&) {}
     void complete(const auto&) {}
     void weigh_lights(const auto& block, const LightSampleGroup* lights) {
         kernels_.weigh_lambert(block.groups(), lights, directions_, block.group_count());
@@ -100,7 +100,7 @@ public:
         for (GuidedGroup& group : groups_) std::fill_n(group.volume, kGroupSize, kNoVolume);
     }
     /// Prefetches the rows of the vertex's table.
-    void add(const auto& block, std::uint32_t i, const ScatterPoint<F, M>& from, const ScatterNumbers&) {
+    void add(const auto& block, std::uint32_t i, const ScatterPoint<F, M>& from, const ScatterUniforms&) {
         if (block.is_layered(i) || !from.vertex.is_served()) return;
         const TableField& field = method_.field;
         __builtin_prefetch(field.row_cdf.data + from.vertex.volume * field.cells.side);

@@ -9,7 +9,7 @@
 #include "core/kernel/methods/targets/expected_sarsa.h"
 #include "core/kernel/methods/targets/frozen.h"
 #include "cpu/base/groups.h"
-#include "cpu/base/number_batch.h"
+#include "cpu/base/uniform_batch.h"
 #include "cpu/learning/lookups_ahead.h"
 #include "cpu/learning/training_queue.h"
 #include "cpu/paths/batch_paths.h"
@@ -35,7 +35,7 @@ public:
     using State = PathState<F, M>;
 
     PathRows(std::uint32_t capacity, bool with_light)
-        : rays(capacity), numbers(capacity, with_light), groups_(pl::group_count(capacity)),
+        : rays(capacity), uniforms(capacity, with_light), groups_(pl::group_count(capacity)),
           open_(LaneLearning<M> ? groups_.size() : 0), states_(kHooksInLanes ? 0 : capacity) {}
 
     /// Whether all hooks of the method, if it has any, are called in lanes.
@@ -44,7 +44,7 @@ public:
     /// Starts path i.
     void start(std::uint32_t i, const State& state) {
         rays.set_ray(i, state.ray);
-        numbers.set_path(i, state);
+        uniforms.set_path(i, state);
         set_sums(i, state);
         PathGroup& group = groups_[i / kGroupSize];
         group.direction_pdf_sa[i % kGroupSize] = state.direction_pdf_sa;
@@ -69,15 +69,15 @@ public:
     State& read(std::uint32_t i, State& local) {
         State& state = kHooksInLanes ? local : states_[i];
         state.ray = rays.ray(i);
-        state.pixel = numbers.pixel(i);
-        state.sample = numbers.sample(i);
+        state.pixel = uniforms.pixel(i);
+        state.sample = uniforms.sample(i);
         read_sums(i, state);
         return state;
     }
     /// Path `from` continues in the place of path `to`.
     void move(std::uint32_t from, std::uint32_t to) {
         rays.set_ray(to, rays.ray(from));
-        numbers.move(from, to);
+        uniforms.move(from, to);
         State state;
         read_sums(from, state);
         set_sums(to, state);
@@ -103,7 +103,7 @@ public:
     PathGroup* groups() { return groups_.data(); }
 
     RayBatch rays;
-    NumberBatch numbers;
+    UniformBatch uniforms;
 
 private:
     void read_sums(std::uint32_t i, State& state) const {
@@ -130,7 +130,7 @@ struct LanePaths : BatchPaths<F, M> {
     static constexpr bool can_look_ahead() { return true; }
 
     RayBatch& rays() { return rows.rays; }
-    NumberBatch& numbers() { return rows.numbers; }
+    UniformBatch& uniforms() { return rows.uniforms; }
     /// Starts path i with the state that begin() returns. `store`: of path i, or null.
     PL_INLINE void start(std::uint32_t i, [[maybe_unused]] typename M::Store* store, const auto& begin) {
         if constexpr (PathRows<F, M>::kHooksInLanes) {

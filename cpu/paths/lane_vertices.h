@@ -51,13 +51,13 @@ private:
 
     BlockRows block_of(std::uint32_t count) {
         const std::uint32_t group = first_ / kGroupSize;
-        NumberBatch& numbers = paths_.rows.numbers;
-        const NumberGroup* light = numbers.light_groups();
+        UniformBatch& uniforms = paths_.rows.uniforms;
+        const UniformGroup* light = uniforms.light_groups();
         return {.hits = paths_.rows.rays.hit_groups() + group,
                 .points = points_at_hits(count),
-                .scatter = numbers.scatter_groups() + group,
+                .scatter = uniforms.scatter_groups() + group,
                 .light = light == nullptr ? nullptr : light + group,
-                .counters = numbers.counter_groups() + group,
+                .counters = uniforms.counter_groups() + group,
                 .paths = paths_.rows.groups() + group,
                 .vertices = vertices_.groups(),
                 .groups = group_count(count)};
@@ -204,12 +204,12 @@ private:
     void add_directions(std::uint64_t vertices) {
         directions_.clear();
         for_bits(vertices,
-                 [&](std::uint32_t k) { directions_.add(vertices_, k, scatter_point(k), scatter_numbers_of(k)); });
+                 [&](std::uint32_t k) { directions_.add(vertices_, k, scatter_point(k), scatter_uniforms_of(k)); });
         directions_.complete(vertices_);
     }
-    ScatterNumbers scatter_numbers_of(std::uint32_t k) const {
-        const NumberBatch& numbers = paths_.rows.numbers;
-        return {.rng = path_rng(paths_.setup.path, numbers.pixel(path(k)), numbers.sample(path(k))),
+    ScatterUniforms scatter_uniforms_of(std::uint32_t k) const {
+        const UniformBatch& uniforms = paths_.rows.uniforms;
+        return {.rng = path_rng(paths_.setup.path, uniforms.pixel(path(k)), uniforms.sample(path(k))),
                 .index = block_.counters[k / kGroupSize].vertex[k % kGroupSize] - 1,
                 .u = block_.scatter[k / kGroupSize].get(k % kGroupSize)};
     }

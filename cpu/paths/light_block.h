@@ -13,7 +13,7 @@ namespace pl {
 template <FeatureSet F, Method M>
 struct LearnedLightsBlock {
     explicit LearnedLightsBlock(const M&) {}
-    const float* numbers() const { return nullptr; }
+    const float* learned_cdf() const { return nullptr; }
     void find(const auto& /*block*/) {}
 
     LearnedLightsGroup groups[kBlockGroups];
@@ -21,11 +21,11 @@ struct LearnedLightsBlock {
 template <FeatureSet F, Method M>
 requires(learns_lights<F, M>) struct LearnedLightsBlock<F, M> {
     explicit LearnedLightsBlock(const M& method) : method_(method) {}
-    const float* numbers() const { return method_.field.light_cdf.data; }
+    const float* learned_cdf() const { return method_.field.light_cdf.data; }
     void find(const auto& block) {
         for (std::uint32_t i = 0; i < block.count(); ++i)
             groups[i / kGroupSize].set(i % kGroupSize, learned_lights<F>(method_, block.vertex(i)).learned(),
-                                       numbers());
+                                       learned_cdf());
     }
 
     LearnedLightsGroup groups[kBlockGroups];
@@ -127,7 +127,7 @@ private:
             const LightTree& tree = context_.scene.light_tree;
             if (!tree.empty()) {
                 learned_.find(block);
-                kernels_.choose_by_tree(rows_of(tree, learned_.numbers()), block.groups(), learned_.groups, samples_,
+                kernels_.choose_by_tree(rows_of(tree, learned_.learned_cdf()), block.groups(), learned_.groups, samples_,
                                         block.group_count());
                 return kernels_.sample_chosen_lights(lights, block.groups(), samples_, block.group_count());
             }
@@ -152,7 +152,7 @@ private:
     /// Whether the sample of vertex i is that of the far lights that was made in lanes.
     bool is_far_in_lanes([[maybe_unused]] const auto& block, [[maybe_unused]] std::uint32_t i) const {
         if constexpr (F.has(Feature::EnvironmentMap))
-            return far_lights_are_in_lanes() && block.light_numbers(i).w < context_.scene.far_probability;
+            return far_lights_are_in_lanes() && block.light_uniforms(i).w < context_.scene.far_probability;
         return false;
     }
     /// Whether the sample of vertex i is that of an emissive triangle that was made in lanes.
@@ -165,7 +165,7 @@ private:
             if (is_far_in_lanes(block, i))
                 return far_light_from(context_.scene, surface, bsdf, far_.groups[i / kGroupSize].get(i % kGroupSize));
         }
-        return sample_direct_light<F>(context_.scene, surface, bsdf, block.light_numbers(i),
+        return sample_direct_light<F>(context_.scene, surface, bsdf, block.light_uniforms(i),
                                       learned_lights<F>(context_.method, block.vertex(i)).learned());
     }
     void sample_lambert(const auto& block, std::uint32_t i) {
@@ -264,7 +264,7 @@ public:
             const PathState<F, M>& state = state_of(path);
             if (state.direction_pdf_sa > 0.0f) add(path, primitive, state);
         }
-        kernels_.find_light_densities(rows_of(context_.scene.light_tree, learned_.numbers()), hits_.data(),
+        kernels_.find_light_densities(rows_of(context_.scene.light_tree, learned_.learned_cdf()), hits_.data(),
                                       group_count(count_));
         for (std::uint32_t i = 0; i < count_; ++i)
             pdf_area_[paths_[i]] = hits_[i / kGroupSize].pdf_area[i % kGroupSize];
@@ -284,7 +284,7 @@ private:
         const std::uint32_t lane = count_ % kGroupSize;
         group.from.set(lane, state.ray.origin);
         group.light[lane] = lights_->light_of(primitive);
-        group.learned.set(lane, state.lights.learned(), learned_.numbers());
+        group.learned.set(lane, state.lights.learned(), learned_.learned_cdf());
         paths_[count_++] = path;
     }
 

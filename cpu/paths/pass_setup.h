@@ -11,7 +11,7 @@
 #include "core/kernel/integrator/probe.h"
 #include "core/kernel/integrator/steps.h"
 #include "core/session/backend.h"
-#include "cpu/base/number_batch.h"
+#include "cpu/base/uniform_batch.h"
 #include "cpu/base/parallel_for.h"
 #include "cpu/paths/light_table.h"
 
@@ -48,7 +48,7 @@ public:
         if (chunk_.empty() && !claim()) return false;
         const std::uint32_t index = chunk_.begin - first_;
         start.number = chunk_.begin++;
-        start.u = numbers_[index / kGroupSize].get(index % kGroupSize);
+        start.u = uniforms_[index / kGroupSize].get(index % kGroupSize);
         start.direction = directions_[index / kGroupSize].get(index % kGroupSize);
         return true;
     }
@@ -64,9 +64,9 @@ private:
             counters_[i / kGroupSize].pixel[i % kGroupSize] = key_.subset.pixel(first_ + i);
             counters_[i / kGroupSize].sample[i % kGroupSize] = key_.sample;
         }
-        kernels_.draw({key_.seed, key_.stream, key_.purpose}, counters_, numbers_, kGroups);
+        kernels_.draw({key_.seed, key_.stream, key_.purpose}, counters_, uniforms_, kGroups);
         if (key_.pinhole != nullptr)
-            kernels_.find_camera_directions(*key_.pinhole, key_.grid, counters_, numbers_, directions_, kGroups);
+            kernels_.find_camera_directions(*key_.pinhole, key_.grid, counters_, uniforms_, directions_, kGroups);
         return true;
     }
 
@@ -76,7 +76,7 @@ private:
     IndexRange chunk_;
     std::uint32_t first_ = 0;
     CounterGroup counters_[kGroups];
-    NumberGroup numbers_[kGroups];
+    UniformGroup uniforms_[kGroups];
     VectorGroup directions_[kGroups];
 };
 

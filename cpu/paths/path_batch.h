@@ -43,7 +43,7 @@ public:
         fill(source);
         while (active_ > 0) {
             hits_.find_closest(paths_.rays(), active_);
-            paths_.numbers().draw(paths_.setup.path, active_);
+            paths_.uniforms().draw(paths_.setup.path, active_);
             shadows_.clear();
             extend();
             shadows_.connect(hits_, active_);
@@ -94,7 +94,7 @@ private:
         for (std::uint32_t block = 0; block * kPathBlock < active_; ++block) {
             // Pixels of the film: the prefetch of begin() has brought them to the L2 cache only.
             for_bits(ended_[block],
-                     [&](std::uint32_t k) { work_.prefetch(paths_.numbers().pixel(block * kPathBlock + k)); });
+                     [&](std::uint32_t k) { work_.prefetch(paths_.uniforms().pixel(block * kPathBlock + k)); });
             while (ended_[block] != 0) {
                 const std::uint32_t i =
                     block * kPathBlock + static_cast<std::uint32_t>(std::countr_zero(ended_[block]));

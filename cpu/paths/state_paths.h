@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/kernel/integrator/steps.h"
-#include "cpu/base/number_batch.h"
+#include "cpu/base/uniform_batch.h"
 #include "cpu/paths/batch_paths.h"
 
 namespace pl {
@@ -17,13 +17,13 @@ public:
 
     StatePaths(const PassSetup& arguments, const M& of, SharedByThreads<M>& shared)
         : BatchPaths<F, M>(arguments, of, shared), states_(arguments.batch_paths), rays_(arguments.batch_paths),
-          numbers_(arguments.batch_paths, this->samples_lights()) {}
+          uniforms_(arguments.batch_paths, this->samples_lights()) {}
 
     /// Points of instances are made, and their volumes found, path by path.
     bool can_look_ahead() const { return !F.has(Feature::Instances) || this->setup.scene.instances.empty(); }
 
     RayBatch& rays() { return rays_; }
-    NumberBatch& numbers() { return numbers_; }
+    UniformBatch& uniforms() { return uniforms_; }
     State& state(std::uint32_t i) { return states_[i]; }
 
     /// Starts path i with the state that begin() returns. `store`: of path i, or null.
@@ -38,7 +38,7 @@ public:
     /// Copies the ray and the random-number counter of path i into the arrays of the batch.
     void send(std::uint32_t i) {
         rays_.set_ray(i, states_[i].ray);
-        numbers_.set_path(i, states_[i]);
+        uniforms_.set_path(i, states_[i]);
     }
     /// Path `from` continues in the place of path `to`.
     void move(std::uint32_t from, std::uint32_t to) {
@@ -49,7 +49,7 @@ public:
 private:
     std::vector<State> states_;
     RayBatch rays_;
-    NumberBatch numbers_;
+    UniformBatch uniforms_;
 };
 
 /// The shadow rays of these paths.
@@ -58,13 +58,13 @@ class StateShadows {
 public:
     explicit StateShadows(StatePaths<F, M>& paths)
         : paths_(paths), rays_(paths.setup.batch_paths), requests_(paths.setup.batch_paths),
-          numbers_(paths.setup.batch_paths) {}
+          path_of_(paths.setup.batch_paths) {}
 
     void clear() { count_ = 0; }
     /// Appends a shadow ray of path i. The rest of the request is left to the caller.
     ShadowRequest<M>& add(std::uint32_t i, const Ray& ray) {
         rays_.set_ray(count_, ray);
-        numbers_[count_] = i;
+        path_of_[count_] = i;
         return requests_[count_++];
     }
 
@@ -74,7 +74,7 @@ public:
         for (std::uint32_t k = 0; k < count_; ++k) {
             const bool is_visible = !rays_.occluded(k);
             if (is_visible)
-                connect_light(paths_.method, requests_[k], paths_.state(numbers_[k]), paths_.counters.path);
+                connect_light(paths_.method, requests_[k], paths_.state(path_of_[k]), paths_.counters.path);
             paths_.guided.record_light(requests_[k].light, is_visible);
         }
         paths_.counters.path.shadow_rays += count_;
@@ -84,7 +84,7 @@ private:
     StatePaths<F, M>& paths_;
     RayBatch rays_;
     std::vector<ShadowRequest<M>> requests_;  ///< [shadow ray]
-    std::vector<std::uint32_t> numbers_;      ///< of their paths
+    std::vector<std::uint32_t> path_of_;      ///< [shadow ray]
     std::uint32_t count_ = 0;
 };
 /// Lights are not sampled.

@@ -101,18 +101,18 @@ private:
 
     /// Plays roulette at the vertex `from` of path i. Its light and its direction are left to the block.
     void leave(std::uint32_t i, ScatterPoint<F, M>& from, const StepOutput<M>& out) {
-        const VertexNumbers numbers = paths_.numbers().numbers(i);
-        if (paths_.samples_lights()) add_vertex(i, from, numbers);
-        if (continue_path(paths_.context, numbers.scatter.w, paths_.state(i), from, out) == PathStatus::Finished)
+        const VertexUniforms uniforms = paths_.uniforms().uniforms(i);
+        if (paths_.samples_lights()) add_vertex(i, from, uniforms);
+        if (continue_path(paths_.context, uniforms.scatter.w, paths_.state(i), from, out) == PathStatus::Finished)
             return;
-        if (!paths_.samples_lights()) add_vertex(i, from, numbers);
+        if (!paths_.samples_lights()) add_vertex(i, from, uniforms);
         vertices_.keep_last(from.roulette_weight);
     }
-    void add_vertex(std::uint32_t i, const ScatterPoint<F, M>& from, const VertexNumbers& numbers) {
+    void add_vertex(std::uint32_t i, const ScatterPoint<F, M>& from, const VertexUniforms& uniforms) {
         const State& state = paths_.state(i);
-        vertices_.add(i, from, received_weights(state), numbers);
+        vertices_.add(i, from, received_weights(state), uniforms);
         directions_.add(vertices_, vertices_.count() - 1, from,
-                        scatter_numbers(paths_.setup.path, state, numbers.scatter));
+                        scatter_uniforms(paths_.setup.path, state, uniforms.scatter));
     }
 
     /// Samples and weighs the lights of the block's vertices.
@@ -184,10 +184,10 @@ private:
     PathStatus scatter_alone(std::uint32_t k, std::uint32_t path) {
         typename M::Sample sample{};
         State& state = paths_.state(path);
-        const ScatterNumbers numbers =
-            scatter_numbers(paths_.setup.path, state, paths_.numbers().numbers(path).scatter);
+        const ScatterUniforms uniforms =
+            scatter_uniforms(paths_.setup.path, state, paths_.uniforms().uniforms(path).scatter);
         const PathStatus status =
-            scatter_layered(paths_.method, vertices_.layered(k), numbers, state, paths_.output(sample));
+            scatter_layered(paths_.method, vertices_.layered(k), uniforms, state, paths_.output(sample));
         paths_.guided.record(sample);
         return status;
     }

@@ -105,7 +105,7 @@ private:
         paths_.counters.path.method.lookup_misses += static_cast<std::uint64_t>(std::popcount(missed));
     }
     void complete(std::uint64_t hit) {
-        BlockNumbers targets;
+        BlockFloats targets;
         BlockBits samples, clamped;
         const float most = kMaxRecordedUnits * paths_.method.field.radiance_unit;
         paths_.kernels.complete_samples(rows_, is_indirect(), most, emitted_, targets, samples, clamped);
@@ -124,8 +124,8 @@ private:
     std::uint32_t first_ = 0;
     LearningRows rows_{};
     ValueGroup values_[kBlockGroups];
-    BlockNumbers emitted_{};  ///< rms() of emission at the ends of segments, without the share of light samples
-    BlockNumbers estimates_{};
+    BlockFloats emitted_{};  ///< rms() of emission at the ends of segments, without the share of light samples
+    BlockFloats estimates_{};
 };
 
 }  // namespace pl

@@ -15,7 +15,7 @@ public:
     const VertexGroup* groups() const { return groups_; }
     Vec3f albedo(std::uint32_t i) const { return group(i).albedo.get(i % kGroupSize); }
     std::uint32_t primitive(std::uint32_t i) const { return group(i).primitive[i % kGroupSize]; }
-    Vec4f light_numbers(std::uint32_t i) const { return group(i).light.get(i % kGroupSize); }
+    Vec4f light_uniforms(std::uint32_t i) const { return group(i).light.get(i % kGroupSize); }
     /// Without the material and the side.
     SurfacePoint surface(std::uint32_t i) const {
         const VertexGroup& from = group(i);
@@ -94,7 +94,7 @@ public:
     /// Appends the vertex that a path has reached. `weights`: before the roulette there. A vertex at a surface other than a Lambert
     /// reflector must be in next_layered(); lanes know no more of it than its light sample needs.
     void add(std::uint32_t path, const ScatterPoint<F, M>& from, const ReceivedWeights& weights,
-             const VertexNumbers& numbers) {
+             const VertexUniforms& uniforms) {
         VertexGroup& group = groups()[count_ / kGroupSize];
         const std::uint32_t lane = count_ % kGroupSize;
         group.position.set(lane, from.surface.position);
@@ -102,9 +102,9 @@ public:
         group.position_error[lane] = from.surface.position_error;
         group.primitive[lane] = from.surface.primitive;
         if constexpr (F.has(Feature::NextEventEstimation))
-            for (int i = 0; i < 4; ++i) group.light.rows[i][lane] = numbers.light[i];
+            for (int i = 0; i < 4; ++i) group.light.rows[i][lane] = uniforms.light[i];
         if (from.bsdf.is_lambert())
-            add_lambert(group, lane, from, weights, numbers);
+            add_lambert(group, lane, from, weights, uniforms);
         else if constexpr (F.has_any(kLobeFeatures))
             add_layered(from, weights);
         paths_[count_] = path;
@@ -143,10 +143,10 @@ private:
     };
 
     void add_lambert(VertexGroup& group, std::uint32_t lane, const ScatterPoint<F, M>& from,
-                     const ReceivedWeights& weights, const VertexNumbers& numbers) {
+                     const ReceivedWeights& weights, const VertexUniforms& uniforms) {
         group.shading_normal.set(lane, from.surface.shading_normal);
         group.albedo.set(lane, from.bsdf.albedo());
-        group.scatter.set(lane, Vec3f{numbers.scatter});
+        group.scatter.set(lane, Vec3f{uniforms.scatter});
         if constexpr (F.has(Feature::NextEventEstimation)) group.throughput.set(lane, weights.throughput);
         if constexpr (kTracksMedium<F>) media_.of[count_] = weights.medium;
     }

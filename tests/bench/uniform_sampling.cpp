@@ -15,7 +15,7 @@ struct UniformMethod : DefaultMethod {
     using DefaultMethod::sample_direction;
 
     DirectionSample sample_direction(const Vertex&, const SurfacePoint& surface,
-                                     const ScatterNumbers& numbers) const {
+                                     const ScatterUniforms& numbers) const {
         const Vec4f u = numbers.u;
         const float sine = std::sqrt(max_of(0.0f, 1.0f - u.y * u.y));
         const float angle = 2.0f * kPi * u.z;

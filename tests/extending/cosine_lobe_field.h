@@ -35,7 +35,7 @@ struct CosineLobeField : FieldView, CosineLobeArrays<ConstSpan, Span> {
     PL_HD Location locate(const SurfacePoint& surface) const { return {volume_at(surface)}; }
 
     /// cos^n around the axis: z = u^(1/(n+1)). Directions below the surface are zero-valued samples.
-    PL_HD Vec3f sample(const Location& location, const SurfacePoint&, const ScatterNumbers& numbers) const {
+    PL_HD Vec3f sample(const Location& location, const SurfacePoint&, const ScatterUniforms& numbers) const {
         const float z = std::pow(numbers.u.y, 1.0f / (kExponent + 1.0f));
         const float radius = std::sqrt(max_of(0.0f, 1.0f - z * z));
         const float angle = 2.0f * kPi * numbers.u.z;

@@ -12,7 +12,7 @@ struct UniformMethod : DefaultMethod {
     static constexpr float kPdf = 0.5f * kInvPi;  // per steradian
 
     PL_HD DirectionSample sample_direction(const Vertex&, const SurfacePoint& surface,
-                                           const ScatterNumbers& numbers) const {
+                                           const ScatterUniforms& numbers) const {
         const float z = numbers.u.y;
         const float radius = std::sqrt(max_of(0.0f, 1.0f - z * z));
         const float angle = 2.0f * kPi * numbers.u.z;

@@ -18,7 +18,7 @@ inline Decision check_fresh_numbers() {
         double sum = 0.0;
         for (std::uint32_t i = 0; i < 8; ++i) {
             const Rng rng{1, Stream::Picture, pixel, first + 2 * i};
-            sum += static_cast<double>(vertex_numbers(rng, sequences, kSpreadVertex, Purpose::Scatter).y) - 0.5;
+            sum += static_cast<double>(vertex_uniforms(rng, sequences, kSpreadVertex, Purpose::Scatter).y) - 0.5;
         }
         return sum / 8.0;
     };

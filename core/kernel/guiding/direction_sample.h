@@ -15,7 +15,7 @@ struct DirectionSample {
 };
 
 /// Uniform numbers of one scattering event.
-struct ScatterNumbers {
+struct ScatterUniforms {
     Rng rng;  ///< of the path: further numbers are drawn by it, with `index` and a purpose of their own
     std::uint32_t index = 0;  ///< PathState::vertices at the vertex
     Vec4f u{0.0f};            ///< x: BSDF or field; y, z: the direction; w: Russian roulette

@@ -52,11 +52,11 @@ template <class Field>
 concept GuidingField = std::is_trivially_copyable_v<Field> && std::default_initializable<typename Field::Location> &&
     std::default_initializable<typename Field::Entry> &&
     requires(const Field& field, const typename Field::Location& location, const typename Field::Entry& entry,
-             const SurfacePoint& surface, const ScatterNumbers& numbers, const DirectionSample& direction,
+             const SurfacePoint& surface, const ScatterUniforms& uniforms, const DirectionSample& direction,
              const TrainingSample<Field>& sample, const LightSample<Field>& light) {
     { field.locate(surface) } -> std::same_as<typename Field::Location>;
     { location.is_served() } -> std::same_as<bool>;
-    { field.sample(location, surface, numbers) } -> std::same_as<Vec3f>;
+    { field.sample(location, surface, uniforms) } -> std::same_as<Vec3f>;
     { field.density(location, surface, Vec3f{}) } -> std::same_as<FieldDensity>;
     { field.bsdf_fraction_at(location) } -> std::same_as<float>;
     { field.value_at(location) } -> std::same_as<float>;

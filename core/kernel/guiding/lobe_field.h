@@ -55,8 +55,8 @@ struct LobeField : LobeView {
         const Vec3f normal = frame(volume).to_local(surface.shading_normal);
         return {volume, offset, product_at(static_cast<std::uint32_t>(volume), offset, normal)};
     }
-    PL_HD Vec3f sample(const Location& location, const SurfacePoint&, const ScatterNumbers& numbers) const {
-        return frame(location.volume).to_world(location.mixture.sample({numbers.u.y, numbers.u.z}));
+    PL_HD Vec3f sample(const Location& location, const SurfacePoint&, const ScatterUniforms& uniforms) const {
+        return frame(location.volume).to_world(location.mixture.sample({uniforms.u.y, uniforms.u.z}));
     }
     /// The bin is the direction itself, rounded.
     PL_HD FieldDensity density(const Location& location, const SurfacePoint&, Vec3f wi) const {

@@ -60,8 +60,8 @@ struct NeuralFieldOf : NetworkField {
         if (!place.is_served()) return {};
         return Mixtures::locate(*this, place, surface);
     }
-    PL_HD Vec3f sample(const Location& location, const SurfacePoint&, const ScatterNumbers& numbers) const {
-        return Mixtures::of(location).sample({numbers.u.y, numbers.u.z});
+    PL_HD Vec3f sample(const Location& location, const SurfacePoint&, const ScatterUniforms& uniforms) const {
+        return Mixtures::of(location).sample({uniforms.u.y, uniforms.u.z});
     }
     /// The bin is the cell of the volume, which the direction trains.
     PL_HD FieldDensity density(const Location& location, const SurfacePoint& surface, Vec3f wi) const {

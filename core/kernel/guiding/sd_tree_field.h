@@ -39,8 +39,8 @@ struct SdTreeField : SdTreeView {
         const Vec3f point = in_cube(surface.position);
         return {volume, leaf_at(point), point};
     }
-    PL_HD Vec3f sample(const Location& location, const SurfacePoint&, const ScatterNumbers& numbers) const {
-        return square_to_sphere(sample_square(location.leaf.leaf, {numbers.u.y, numbers.u.z}));
+    PL_HD Vec3f sample(const Location& location, const SurfacePoint&, const ScatterUniforms& uniforms) const {
+        return square_to_sphere(sample_square(location.leaf.leaf, {uniforms.u.y, uniforms.u.z}));
     }
     PL_HD FieldDensity density(const Location& location, const SurfacePoint&, Vec3f wi) const {
         const QuadSlot slot = slot_at(location.leaf.leaf, sphere_to_square(wi));

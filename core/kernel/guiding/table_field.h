@@ -33,8 +33,8 @@ struct TableField : TableView {
         const FoundVolume found = find(surface);
         return {found.volume, found.node};
     }
-    PL_HD Vec3f sample(const Location& location, const SurfacePoint& surface, const ScatterNumbers& numbers) const {
-        const Real2<One> u{numbers.u.y, numbers.u.z};
+    PL_HD Vec3f sample(const Location& location, const SurfacePoint& surface, const ScatterUniforms& uniforms) const {
+        const Real2<One> u{uniforms.u.y, uniforms.u.z};
         const TableSampler tables = sampler();
         const std::int32_t row = sample_row(tables.tables_of<One>(location.volume), u.y);
         return pack(tables.sample<One>(served_point(location, surface), row, u));

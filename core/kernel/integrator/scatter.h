@@ -129,9 +129,9 @@ PL_HD_INLINED PathStatus scatter_lambert(const M& method, const ScatterPoint<F, 
 
 /// Scatters a path at any other surface: first chooses between the delta lobes and the others. `numbers.lobe` is drawn here.
 template <FeatureSet F, Method M>
-PL_HD_INLINED PathStatus scatter_layered(const M& method, const ScatterPoint<F, M>& from, ScatterNumbers numbers,
+PL_HD_INLINED PathStatus scatter_layered(const M& method, const ScatterPoint<F, M>& from, ScatterUniforms uniforms,
                                          PathState<F, M>& state, const StepOutput<M>& out) {
-    const Vec4f choice = numbers.rng.draw(numbers.index, Purpose::Lobe);
+    const Vec4f choice = uniforms.rng.draw(uniforms.index, Purpose::Lobe);
     const float p = from.bsdf.delta_probability();
     if (choice.x < p) {
         const DeltaDirection delta = from.bsdf.sample_delta(from.surface, choice.y);
@@ -139,8 +139,8 @@ PL_HD_INLINED PathStatus scatter_layered(const M& method, const ScatterPoint<F, 
         state.direction_pdf_sa = 0.0f;
         return send_path(method, from, {.wi = delta.wi}, delta.weight * (1.0f / p), state, out.counters);
     }
-    numbers.lobe = choice.z;
-    const DirectionSample direction = method.sample_direction(from.vertex, from.surface, from.bsdf, numbers);
+    uniforms.lobe = choice.z;
+    const DirectionSample direction = method.sample_direction(from.vertex, from.surface, from.bsdf, uniforms);
     const float pdf_sa = (1.0f - p) * direction.pdf_sa;
     const float cos_i = from.bsdf.cosine(from.surface, direction.wi);
     if (!(pdf_sa > 0.0f) || cos_i == 0.0f) return terminate_black(method, state, out);
@@ -153,12 +153,12 @@ PL_HD_INLINED PathStatus scatter_layered(const M& method, const ScatterPoint<F, 
 
 /// Samples the next direction of one path and scatters it.
 template <FeatureSet F, Method M>
-PL_HD_INLINED PathStatus scatter(const M& method, const ScatterPoint<F, M>& from, const ScatterNumbers& numbers,
+PL_HD_INLINED PathStatus scatter(const M& method, const ScatterPoint<F, M>& from, const ScatterUniforms& uniforms,
                                  PathState<F, M>& state, const StepOutput<M>& out) {
     if constexpr (F.has_any(kLobeFeatures)) {
-        if (!from.bsdf.is_lambert()) return scatter_layered(method, from, numbers, state, out);
+        if (!from.bsdf.is_lambert()) return scatter_layered(method, from, uniforms, state, out);
     }
-    return scatter_lambert(method, from, method.sample_direction(from.vertex, from.surface, numbers), state, out);
+    return scatter_lambert(method, from, method.sample_direction(from.vertex, from.surface, uniforms), state, out);
 }
 
 }  // namespace pl

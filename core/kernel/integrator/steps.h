@@ -17,26 +17,26 @@ PL_HD inline Rng path_rng(const PathSettings& settings, std::uint32_t pixel, std
 }
 
 /// Uniform numbers of a vertex: an argument of the steps, so that a back end may draw those of many paths at once.
-struct VertexNumbers {
-    Vec4f scatter{0.0f};  ///< ScatterNumbers::u
+struct VertexUniforms {
+    Vec4f scatter{0.0f};  ///< ScatterUniforms::u
     Vec4f light{0.0f};    ///< drawn only if lights are sampled
 };
 
 /// The numbers of the vertex at the end of the path's segment.
 template <FeatureSet F, class M>
-PL_HD inline VertexNumbers draw_vertex_numbers(const PathSettings& settings, const PathState<F, M>& state) {
+PL_HD inline VertexUniforms draw_vertex_uniforms(const PathSettings& settings, const PathState<F, M>& state) {
     const Rng rng = path_rng(settings, state.pixel, state.sample);
-    VertexNumbers numbers{.scatter = vertex_numbers(rng, settings.sequences, state.vertices + 1, Purpose::Scatter)};
+    VertexUniforms uniforms{.scatter = vertex_uniforms(rng, settings.sequences, state.vertices + 1, Purpose::Scatter)};
     if constexpr (F.has(Feature::NextEventEstimation)) {
         if (settings.next_event != 0)
-            numbers.light = vertex_numbers(rng, settings.sequences, state.vertices + 1, Purpose::Light);
+            uniforms.light = vertex_uniforms(rng, settings.sequences, state.vertices + 1, Purpose::Light);
     }
-    return numbers;
+    return uniforms;
 }
 
 /// The numbers by which a path is scattered at its current vertex.
 template <FeatureSet F, class M>
-PL_HD inline ScatterNumbers scatter_numbers(const PathSettings& settings, const PathState<F, M>& state, Vec4f u) {
+PL_HD inline ScatterUniforms scatter_uniforms(const PathSettings& settings, const PathState<F, M>& state, Vec4f u) {
     return {.rng = path_rng(settings, state.pixel, state.sample), .index = state.vertices, .u = u};
 }
 

@@ -10,7 +10,7 @@ namespace pl {
 /// The vertex at the end of a path's segment, for the steps shade_segment(), sample_light_at_end() and scatter_at_end().
 template <FeatureSet F, class M>
 struct SegmentEnd {
-    VertexNumbers numbers;
+    VertexUniforms uniforms;
     ScatterPoint<F, M> from;  ///< valid only while the path continues
     typename M::Sample sample{};
 };
@@ -19,7 +19,7 @@ struct SegmentEnd {
 template <FeatureSet F, Method M>
 PL_HD_INLINED PathStatus shade_segment(const PathContext<M>& context, const Hit& hit, PathState<F, M>& state,
                                        SegmentEnd<F, M>& end, PathCounters& counters) {
-    end.numbers = draw_vertex_numbers<F>(context.settings, state);
+    end.uniforms = draw_vertex_uniforms<F>(context.settings, state);
     return shade_hit<F, M>(context, hit, SurfaceAhead<F, M>{context.scene, hit, state}, state,
                            {{end.sample, counters}, end.from});
 }
@@ -31,8 +31,8 @@ PL_HD_INLINED PathStatus sample_light_at_end(const PathContext<M>& context, Path
                                              PathState<F, M>& state, ShadowRequest<M>& shadow,
                                              PathCounters& counters) {
     if (status != PathStatus::Continues) return status;
-    request_light(context, end.from, end.numbers.light, state, shadow);
-    return continue_path<F, M>(context, end.numbers.scatter.w, state, end.from, {end.sample, counters});
+    request_light(context, end.from, end.uniforms.light, state, shadow);
+    return continue_path<F, M>(context, end.uniforms.scatter.w, state, end.from, {end.sample, counters});
 }
 
 /// Scatters a path at the end of its segment, if it continues there: its ray is then the next segment. `status`: of
@@ -42,7 +42,7 @@ PL_HD_INLINED PathStatus scatter_at_end(const PathContext<M>& context, PathStatu
                                         PathState<F, M>& state, PathCounters& counters) {
     if (status == PathStatus::Continues)
         status =
-            scatter<F, M>(context.method, end.from, scatter_numbers(context.settings, state, end.numbers.scatter),
+            scatter<F, M>(context.method, end.from, scatter_uniforms(context.settings, state, end.uniforms.scatter),
                           state, {end.sample, counters});
     context.method.record(end.sample);
     return status;

@@ -8,8 +8,8 @@ namespace pl {
 
 struct DefaultMethod : MethodHooks {
     PL_HD DirectionSample sample_direction(const Vertex&, const SurfacePoint& surface,
-                                           const ScatterNumbers& numbers) const {
-        return weigh_lambert(surface, lambert_sample(surface, {numbers.u.y, numbers.u.z}));
+                                           const ScatterUniforms& uniforms) const {
+        return weigh_lambert(surface, lambert_sample(surface, {uniforms.u.y, uniforms.u.z}));
     }
     PL_HD float pdf_sa(const Vertex&, const SurfacePoint& surface, Vec3f wi) const {
         return lambert_pdf_sa(surface, wi);
@@ -17,8 +17,8 @@ struct DefaultMethod : MethodHooks {
 
     template <FeatureSet B>
     PL_HD DirectionSample sample_direction(const Vertex&, const SurfacePoint& surface, const LayeredBsdf<B>& bsdf,
-                                           const ScatterNumbers& numbers) const {
-        return sample_bsdf(surface, bsdf, numbers);
+                                           const ScatterUniforms& uniforms) const {
+        return sample_bsdf(surface, bsdf, uniforms);
     }
     template <FeatureSet B>
     PL_HD float pdf_sa(const Vertex&, const SurfacePoint& surface, const LayeredBsdf<B>& bsdf, Vec3f wi) const {

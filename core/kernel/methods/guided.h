@@ -70,10 +70,10 @@ struct Guided : Target<F> {
     }
 
     PL_HD DirectionSample sample_direction(const Vertex& vertex, const SurfacePoint& surface,
-                                           const ScatterNumbers& numbers) const {
-        const bool from_field = vertex.is_served() && samples_field(vertex, numbers);
+                                           const ScatterUniforms& uniforms) const {
+        const bool from_field = vertex.is_served() && samples_field(vertex, uniforms);
         const Vec3f wi =
-            from_field ? field.sample(vertex, surface, numbers) : lambert_sample(surface, {numbers.u.y, numbers.u.z});
+            from_field ? field.sample(vertex, surface, uniforms) : lambert_sample(surface, {uniforms.u.y, uniforms.u.z});
         return weigh(vertex, surface, wi);
     }
     PL_HD float pdf_sa(const Vertex& vertex, const SurfacePoint& surface, Vec3f wi) const {
@@ -81,11 +81,11 @@ struct Guided : Target<F> {
     }
     template <FeatureSet B>
     PL_HD DirectionSample sample_direction(const Vertex& vertex, const SurfacePoint& surface,
-                                           const LayeredBsdf<B>& bsdf, const ScatterNumbers& numbers) const {
-        if (!vertex.is_served()) return sample_bsdf(surface, bsdf, numbers);
-        const Vec3f wi = samples_field(vertex, numbers)
-                             ? field.sample(vertex, surface, numbers)
-                             : bsdf.sample(surface, {numbers.u.y, numbers.u.z}, numbers.lobe);
+                                           const LayeredBsdf<B>& bsdf, const ScatterUniforms& uniforms) const {
+        if (!vertex.is_served()) return sample_bsdf(surface, bsdf, uniforms);
+        const Vec3f wi = samples_field(vertex, uniforms)
+                             ? field.sample(vertex, surface, uniforms)
+                             : bsdf.sample(surface, {uniforms.u.y, uniforms.u.z}, uniforms.lobe);
         return mix(vertex, surface, wi, bsdf.pdf_sa(surface, wi));
     }
     template <FeatureSet B>
@@ -118,8 +118,8 @@ struct Guided : Target<F> {
     }
 
 private:
-    PL_HD bool samples_field(const Vertex& vertex, const ScatterNumbers& numbers) const {
-        return numbers.u.x >= bsdf_fraction(vertex);
+    PL_HD bool samples_field(const Vertex& vertex, const ScatterUniforms& uniforms) const {
+        return uniforms.u.x >= bsdf_fraction(vertex);
     }
     PL_HD DirectionSample weigh(const Vertex& vertex, const SurfacePoint& surface, Vec3f wi) const {
         if (!vertex.is_served()) return weigh_lambert(surface, wi);

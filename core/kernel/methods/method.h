@@ -19,8 +19,8 @@ PL_HD inline DirectionSample weigh_lambert(const SurfacePoint& surface, Vec3f wi
 /// BSDF sampling of any other surface, by numbers.u.y, u.z and numbers.lobe.
 template <FeatureSet B>
 PL_HD inline DirectionSample sample_bsdf(const SurfacePoint& surface, const LayeredBsdf<B>& bsdf,
-                                         const ScatterNumbers& numbers) {
-    const Vec3f wi = bsdf.sample(surface, {numbers.u.y, numbers.u.z}, numbers.lobe);
+                                         const ScatterUniforms& uniforms) {
+    const Vec3f wi = bsdf.sample(surface, {uniforms.u.y, uniforms.u.z}, uniforms.lobe);
     const float pdf_sa = bsdf.pdf_sa(surface, wi);
     return {wi, pdf_sa, pdf_sa};
 }
@@ -115,13 +115,13 @@ template <class M>
 concept Method = std::derived_from<M, MethodHooks> &&
     requires(const M& method, const typename M::Vertex& vertex, typename M::Memory& memory,
              const SurfacePoint& surface, const Bsdf<kLobeFeatures>& bsdf, const Bsdf<kEveryFeature>& every,
-             const ScatterNumbers& numbers, Vec3f wi, const Observation& observation, MethodCounters& counters,
+             const ScatterUniforms& uniforms, Vec3f wi, const Observation& observation, MethodCounters& counters,
              typename M::Expectation& expectation) {
-    { method.sample_direction(vertex, surface, numbers) } -> std::same_as<DirectionSample>;
+    { method.sample_direction(vertex, surface, uniforms) } -> std::same_as<DirectionSample>;
     { method.pdf_sa(vertex, surface, wi) } -> std::same_as<float>;
-    { method.sample_direction(vertex, surface, bsdf, numbers) } -> std::same_as<DirectionSample>;
+    { method.sample_direction(vertex, surface, bsdf, uniforms) } -> std::same_as<DirectionSample>;
     { method.pdf_sa(vertex, surface, bsdf, wi) } -> std::same_as<float>;
-    { method.sample_direction(vertex, surface, every, numbers) } -> std::same_as<DirectionSample>;
+    { method.sample_direction(vertex, surface, every, uniforms) } -> std::same_as<DirectionSample>;
     { method.pdf_sa(vertex, surface, every, wi) } -> std::same_as<float>;
     { method.locate(surface, counters) } -> std::same_as<typename M::Vertex>;
     { method.observe(memory, observation, vertex, counters) } -> std::same_as<typename M::Sample>;

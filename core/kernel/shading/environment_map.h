@@ -92,9 +92,9 @@ PL_INLINE auto at_taps(const EnvironmentMap& map, const MapTapsOf<N>& at, const 
 /// Incident radiance from the direction of the taps.
 template <class N>
 PL_INLINE Real3<N> map_radiance(const EnvironmentMap& map, const MapTapsOf<N>& at) {
-    const auto* numbers = static_cast<const float*>(static_cast<const void*>(map.texels.data));
+    const auto* floats = static_cast<const float*>(static_cast<const void*>(map.texels.data));
     return at_taps<N>(map, at, [&](const typename N::Int& i) {
-        return Real3<N>{N::load(numbers, 4 * i), N::load(numbers, 4 * i + 1), N::load(numbers, 4 * i + 2)};
+        return Real3<N>{N::load(floats, 4 * i), N::load(floats, 4 * i + 1), N::load(floats, 4 * i + 2)};
     });
 }
 PL_HD inline Vec3f map_radiance(const EnvironmentMap& map, Vec3f direction) {
@@ -105,9 +105,9 @@ PL_HD inline Vec3f map_radiance(const EnvironmentMap& map, Vec3f direction) {
 /// the two are nearly proportional; exact, because the tents around texels sum to bilinear interpolation.
 template <class N>
 PL_INLINE typename N::Real map_density(const EnvironmentMap& map, const MapTapsOf<N>& at) {
-    const auto* numbers = static_cast<const float*>(static_cast<const void*>(map.texels.data));
+    const auto* floats = static_cast<const float*>(static_cast<const void*>(map.texels.data));
     const typename N::Real p =
-        at_taps<N>(map, at, [&](const typename N::Int& i) { return N::load(numbers, 4 * i + 3); });
+        at_taps<N>(map, at, [&](const typename N::Int& i) { return N::load(floats, 4 * i + 3); });
     return p * static_cast<float>(map.width) * static_cast<float>(map.height);
 }
 

@@ -145,7 +145,7 @@ TEST_CASE("Samples of a mixture follow its density") {
     std::vector<std::uint64_t> counts(probabilities.size(), 0);
     Uniforms random(2);
     for (int i = 0; i < 400000; ++i) {
-        ScatterNumbers numbers;
+        ScatterUniforms numbers;
         numbers.u = {0.0f, random.next(), random.next(), 0.0f};
         const Vec3f wi = field.sample(location, {}, numbers);
         REQUIRE(field.density(location, {}, wi).pdf_sa > 0.0f);

@@ -94,7 +94,7 @@ TEST_CASE("Samples of an SD-tree follow its density") {
     std::vector<std::uint64_t> counts(probabilities.size(), 0);
     Uniforms random(2);
     for (int i = 0; i < 400000; ++i) {
-        ScatterNumbers numbers;
+        ScatterUniforms numbers;
         numbers.u = {0.0f, random.next(), random.next(), 0.0f};
         const Vec3f wi = field.sample(location, {}, numbers);
         const FieldDensity density = field.density(location, {}, wi);
@@ -119,7 +119,7 @@ TEST_CASE("Training brings the density of an SD-tree to the light") {
     Uniforms random(5);
     int near_peak = 0;
     for (int i = 0; i < 10000; ++i) {
-        ScatterNumbers numbers;
+        ScatterUniforms numbers;
         numbers.u = {0.0f, random.next(), random.next(), 0.0f};
         near_peak += glm::dot(field.sample(location, {}, numbers), peak) > 0.8f ? 1 : 0;
     }

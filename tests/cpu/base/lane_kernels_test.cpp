@@ -30,7 +30,7 @@ TEST_CASE("Every instruction set draws the bits of Rng") {
             const DrawKey key{(std::uint64_t{random.bits()} << 32) | random.bits(),
                               static_cast<Stream>(random.below(3)), static_cast<Purpose>(random.below(6))};
             CounterGroup counters[2];
-            NumberGroup numbers[2];
+            UniformGroup numbers[2];
             for (std::uint32_t i = 0; i < 2 * kGroupSize; ++i) {
                 counters[i / kGroupSize].pixel[i % kGroupSize] = random.bits();
                 counters[i / kGroupSize].sample[i % kGroupSize] = random.bits();
@@ -57,7 +57,7 @@ TEST_CASE("Every instruction set draws the numbers of vertices as one path alone
                               random.below(2) == 0 ? Purpose::Scatter : Purpose::Light,
                               {random.bits() >> random.below(32), random.bits() >> random.below(32)}};
             CounterGroup counters;
-            NumberGroup numbers;
+            UniformGroup numbers;
             for (std::uint32_t lane = 0; lane < kGroupSize; ++lane) {
                 counters.pixel[lane] = random.bits();
                 counters.sample[lane] = key.sequences.first_sample + (random.bits() >> random.below(32));
@@ -67,7 +67,7 @@ TEST_CASE("Every instruction set draws the numbers of vertices as one path alone
             for (std::uint32_t lane = 0; lane < kGroupSize; ++lane) {
                 const Rng rng{key.seed, key.stream, counters.pixel[lane], counters.sample[lane]};
                 REQUIRE(same_bits(numbers.get(lane),
-                                  vertex_numbers(rng, key.sequences, counters.vertex[lane], key.purpose)));
+                                  vertex_uniforms(rng, key.sequences, counters.vertex[lane], key.purpose)));
             }
         }
     }
@@ -78,7 +78,7 @@ TEST_CASE("A batch of numbers gives the numbers of a vertex alone") {
     const PathSettings settings{.seed = 0x123456789abcdef0u, .sequences = {20, 77}, .next_event = 1};
     Uniforms random(8);
     std::vector<PathState<kLights, DefaultMethod>> states(37);
-    NumberBatch batch(37, true);
+    UniformBatch batch(37, true);
     for (std::uint32_t i = 0; i < 37; ++i) {
         states[i].pixel = random.bits();
         states[i].sample = random.bits();
@@ -87,7 +87,7 @@ TEST_CASE("A batch of numbers gives the numbers of a vertex alone") {
     }
     batch.draw(settings, 37);
     for (std::uint32_t i = 0; i < 37; ++i) {
-        const VertexNumbers expected = draw_vertex_numbers<kLights>(settings, states[i]);
+        const VertexUniforms expected = draw_vertex_uniforms<kLights>(settings, states[i]);
         CHECK(same_bits(batch.numbers(i).scatter, expected.scatter));
         CHECK(same_bits(batch.numbers(i).light, expected.light));
     }
@@ -118,7 +118,7 @@ TEST_CASE("Every instruction set makes the camera rays of the scalar code, bit f
     for (const std::uint32_t sample : {0u, 1u, 2u, 17u, 0xffffffffu}) {
         const PixelGrid grid{61, 43, sample};
         CounterGroup counters[3];
-        NumberGroup numbers[3];
+        UniformGroup numbers[3];
         for (std::uint32_t i = 0; i < 3 * kGroupSize; ++i) {
             counters[i / kGroupSize].pixel[i % kGroupSize] = random.below(61 * 43);
             const Vec4f u = to_unit_floats(Rng{3, Stream::Picture, i, sample}.bits(0, Purpose::Pixel));

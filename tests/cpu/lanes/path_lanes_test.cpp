@@ -25,7 +25,7 @@ struct Block {
     RayGroup rays[kBlockGroups];
     HitGroup hits[kBlockGroups];
     PointGroup points[kBlockGroups];
-    NumberGroup scatter[kBlockGroups];
+    UniformGroup scatter[kBlockGroups];
     CounterGroup counters[kBlockGroups];
     PathGroup paths[kBlockGroups];
     VertexGroup vertices[kBlockGroups];

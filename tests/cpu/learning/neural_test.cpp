@@ -104,7 +104,7 @@ Decision samples_follow_density(const NeuralField& field, const SurfacePoint& po
     std::vector<std::uint64_t> counts(probabilities.size(), 0);
     Uniforms random(seed);
     for (int i = 0; i < 400000; ++i) {
-        ScatterNumbers numbers;
+        ScatterUniforms numbers;
         numbers.u = {0.0f, random.next(), random.next(), 0.0f};
         ++counts[cell_of(field.sample(location, point, numbers))];
     }

@@ -31,7 +31,7 @@ M guided_by(const TableField& field, const MixtureSettings& mixture = {}) {
 }
 
 /// The numbers by which the integrator scatters a path at its vertex `index`.
-inline ScatterNumbers numbers_of(const Rng& rng, std::uint32_t index) {
+inline ScatterUniforms numbers_of(const Rng& rng, std::uint32_t index) {
     return {.rng = rng, .index = index, .u = rng.draw(index, Purpose::Scatter)};
 }
 

@@ -15,7 +15,7 @@ namespace {
 
 Vec4f numbers_of(std::uint32_t pixel, std::uint32_t pass, Purpose purpose = Purpose::Scatter,
                  VertexSequences sequences = {}) {
-    return vertex_numbers(Rng{1, Stream::Picture, pixel, pass}, sequences, kSpreadVertex, purpose);
+    return vertex_uniforms(Rng{1, Stream::Picture, pixel, pass}, sequences, kSpreadVertex, purpose);
 }
 
 /// Mean of an integrand over every other pass of a pixel from `first` on, less its true mean.
@@ -48,7 +48,7 @@ TEST_CASE("Only first vertices of camera paths have numbers of a sequence") {
         for (std::uint32_t vertex = 0; vertex < 4; ++vertex) {
             const Rng rng{3, stream, 17, 9};
             const bool spread = stream == Stream::Picture && vertex == kSpreadVertex;
-            CHECK((vertex_numbers(rng, {8, 4}, vertex, Purpose::Light) == rng.draw(vertex, Purpose::Light)) !=
+            CHECK((vertex_uniforms(rng, {8, 4}, vertex, Purpose::Light) == rng.draw(vertex, Purpose::Light)) !=
                   spread);
         }
 }

@@ -8,10 +8,10 @@
 
 namespace pl {
 
-/// The numbers are bit-identical to draw_vertex_numbers() of each path.
-class NumberBatch {
+/// The numbers are bit-identical to draw_vertex_uniforms() of each path.
+class UniformBatch {
 public:
-    NumberBatch(std::uint32_t capacity, bool with_light)
+    UniformBatch(std::uint32_t capacity, bool with_light)
         : counters_(group_count(capacity)), scatter_(counters_.size()), light_(with_light ? counters_.size() : 0) {}
 
     template <FeatureSet F, class M>
@@ -35,9 +35,9 @@ public:
         return counters_[index / kGroupSize].sample[index % kGroupSize];
     }
     CounterGroup* counter_groups() { return counters_.data(); }
-    const NumberGroup* scatter_groups() const { return scatter_.data(); }
+    const UniformGroup* scatter_groups() const { return scatter_.data(); }
     /// Null without light sampling.
-    const NumberGroup* light_groups() const { return light_.empty() ? nullptr : light_.data(); }
+    const UniformGroup* light_groups() const { return light_.empty() ? nullptr : light_.data(); }
 
     /// Draws the numbers of the first `count` paths.
     void draw(const PathSettings& settings, std::uint32_t count) {
@@ -47,21 +47,21 @@ public:
         if (!light_.empty()) draw_rows(key, light_, count);
     }
 
-    VertexNumbers numbers(std::uint32_t index) const {
-        VertexNumbers numbers{.scatter = scatter_[index / kGroupSize].get(index % kGroupSize)};
-        if (!light_.empty()) numbers.light = light_[index / kGroupSize].get(index % kGroupSize);
-        return numbers;
+    VertexUniforms uniforms(std::uint32_t index) const {
+        VertexUniforms uniforms{.scatter = scatter_[index / kGroupSize].get(index % kGroupSize)};
+        if (!light_.empty()) uniforms.light = light_[index / kGroupSize].get(index % kGroupSize);
+        return uniforms;
     }
 
 private:
-    void draw_rows(const DrawKey& key, std::vector<NumberGroup>& rows, std::uint32_t count) const {
+    void draw_rows(const DrawKey& key, std::vector<UniformGroup>& rows, std::uint32_t count) const {
         kernels_.draw_vertices(key, counters_.data(), rows.data(), group_count(count));
     }
 
     LaneKernels kernels_ = best_lane_kernels();
     std::vector<CounterGroup> counters_;
-    std::vector<NumberGroup> scatter_;
-    std::vector<NumberGroup> light_;  ///< empty without light sampling
+    std::vector<UniformGroup> scatter_;
+    std::vector<UniformGroup> light_;  ///< empty without light sampling
 };
 
 }  // namespace pl
