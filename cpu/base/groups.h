@@ -59,7 +59,7 @@ struct alignas(64) VertexGroup {
     VectorGroup albedo;
     VectorGroup throughput;  ///< of the path before the roulette at the vertex
     VectorGroup scatter;     ///< x, y, z of ScatterUniforms::u
-    UniformGroup light;       ///< VertexUniforms::light
+    UniformGroup light;      ///< VertexUniforms::light
 };
 
 /// A scene and the volumes placed in it, as plain pointers; without volumes only the first three members are needed.

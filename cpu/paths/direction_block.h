@@ -21,7 +21,8 @@ public:
     /// Told that no vertex is in the block.
     void clear() {}
     /// Told that vertex i of the block is `from`.
-    void add(const auto& /*block*/, std::uint32_t i, const ScatterPoint<F, M>& from, const ScatterUniforms& uniforms) {
+    void add(const auto& /*block*/, std::uint32_t i, const ScatterPoint<F, M>& from,
+             const ScatterUniforms& uniforms) {
         surfaces_[i] = from.surface;
         uniforms_[i] = uniforms;
     }

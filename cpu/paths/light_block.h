@@ -127,8 +127,8 @@ private:
             const LightTree& tree = context_.scene.light_tree;
             if (!tree.empty()) {
                 learned_.find(block);
-                kernels_.choose_by_tree(rows_of(tree, learned_.learned_cdf()), block.groups(), learned_.groups, samples_,
-                                        block.group_count());
+                kernels_.choose_by_tree(rows_of(tree, learned_.learned_cdf()), block.groups(), learned_.groups,
+                                        samples_, block.group_count());
                 return kernels_.sample_chosen_lights(lights, block.groups(), samples_, block.group_count());
             }
         }

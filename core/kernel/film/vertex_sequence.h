@@ -60,7 +60,7 @@ PL_INLINE SequenceMember<Word> sequence_member(const VertexSequences& sequences,
 
 /// The numbers of a path for a vertex and purpose: Rng::draw(), or a member of a sequence.
 PL_HD inline Vec4f vertex_uniforms(const Rng& rng, const VertexSequences& sequences, std::uint32_t vertex,
-                                  Purpose purpose) {
+                                   Purpose purpose) {
     const bool is_spread = vertex == kSpreadVertex && rng.stream == Stream::Picture;
     const auto [sequence, steps] = sequence_member(sequences, rng.sample);
     // One call for both cases, which the lanes of a warp make together.

@@ -26,7 +26,8 @@ struct VertexUniforms {
 template <FeatureSet F, class M>
 PL_HD inline VertexUniforms draw_vertex_uniforms(const PathSettings& settings, const PathState<F, M>& state) {
     const Rng rng = path_rng(settings, state.pixel, state.sample);
-    VertexUniforms uniforms{.scatter = vertex_uniforms(rng, settings.sequences, state.vertices + 1, Purpose::Scatter)};
+    VertexUniforms uniforms{.scatter =
+                                vertex_uniforms(rng, settings.sequences, state.vertices + 1, Purpose::Scatter)};
     if constexpr (F.has(Feature::NextEventEstimation)) {
         if (settings.next_event != 0)
             uniforms.light = vertex_uniforms(rng, settings.sequences, state.vertices + 1, Purpose::Light);

@@ -72,8 +72,8 @@ struct Guided : Target<F> {
     PL_HD DirectionSample sample_direction(const Vertex& vertex, const SurfacePoint& surface,
                                            const ScatterUniforms& uniforms) const {
         const bool from_field = vertex.is_served() && samples_field(vertex, uniforms);
-        const Vec3f wi =
-            from_field ? field.sample(vertex, surface, uniforms) : lambert_sample(surface, {uniforms.u.y, uniforms.u.z});
+        const Vec3f wi = from_field ? field.sample(vertex, surface, uniforms)
+                                    : lambert_sample(surface, {uniforms.u.y, uniforms.u.z});
         return weigh(vertex, surface, wi);
     }
     PL_HD float pdf_sa(const Vertex& vertex, const SurfacePoint& surface, Vec3f wi) const {
