@@ -10,13 +10,13 @@ namespace pl::ui {
 FlowerField make_flowers(const FieldKeyFrame& frame, int step, float diagonal, const StopFlag* stop) {
     const std::size_t least = (frame.volumes() + kMostFlowers - 1) / kMostFlowers;
     const std::size_t every = std::max(static_cast<std::size_t>(std::max(step, 1)), least);
+    const int side = frame.side();
     FlowerField field;
     const auto count = static_cast<float>(frame.volumes() / every + 1);
     // About half of the distance between neighbors, and never larger than the shape of the selected volume.
     field.radius = diagonal * std::min(0.04f, 0.7f / std::sqrt(count));
     for (std::size_t volume = 0; volume < frame.volumes() && !(stop != nullptr && *stop); volume += every) {
-        const auto [side, shares] = frame.probabilities(static_cast<std::int32_t>(volume));
-        const std::vector<float> density = relative_to_cosine(shares);
+        const std::vector<float> density = relative_to_cosine(frame.probabilities(static_cast<std::int32_t>(volume)));
         FlowerField::Flower flower{.position = frame.position(volume), .normal = frame.normal(volume)};
         field.fine_side = std::min(FlowerField::kFine, side);
         field.coarse_side = std::min(FlowerField::kCoarse, side);

@@ -24,6 +24,7 @@ public:
     Vec3f position(std::size_t volume) const { return learned_.volumes->sites[volume].position; }
     Vec3f normal(std::size_t volume) const { return learned_.volumes->normals[volume]; }
     int bins() const { return learned_.shape.cells.count(); }
+    int side() const { return learned_.shape.cells.side; }  ///< of a table of cells
     const std::string& scene_hash() const { return learned_.scene_hash; }
     std::size_t bytes() const { return bytes_; }
 
