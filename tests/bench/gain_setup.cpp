@@ -4,6 +4,7 @@
 #include <cstdlib>
 
 #include "core/base/error.h"
+#include "core/fields/field_choices.h"
 #include "core/io/load_scene.h"
 
 namespace pl::benchmarks {
@@ -88,7 +89,8 @@ RenderSettings settings_of(const GainSetup& setup, const SceneDescription& scene
                                .light = static_cast<LearnedLight>(setup.integer("light"))};
     settings.roulette = static_cast<RouletteRule>(setup.integer("roulette"));
     settings.guiding = static_cast<GuidingRule>(setup.integer("guiding"));
-    settings.field.representation = kRepresentations.at(static_cast<std::size_t>(setup.integer("field"))).value;
+    settings.field.representation =
+        kChoices<Representation>.at(static_cast<std::size_t>(setup.integer("field"))).value;
     if (setup["precompute"] > 0.0) settings.field.precompute_samples = setup.integer("precompute");
     return settings;
 }

@@ -59,6 +59,10 @@ private:
     }
 };
 
+struct CosineLobeModel;
+template <template <class> class Array>
+CosineLobeModel model_of(const CosineLobeStorage<Array>&);
+
 struct CosineLobeModel {
     using Field = CosineLobeField;
     template <template <class> class Array>
@@ -100,8 +104,6 @@ struct CosineLobeModel {
         }
     }
 };
-template <template <class> class Array>
-CosineLobeModel model_of(const CosineLobeStorage<Array>&);
 static_assert(FieldModel<CosineLobeModel>);
 
 }  // namespace pl::test

@@ -6,7 +6,7 @@
 #include "core/fields/field_kernels.h"
 #include "core/io/checkpoint_file.h"
 #include "tests/app/parsing.h"
-#include "tests/session/through_file.h"
+#include "tests/core/session/through_file.h"
 #include "tests/support/scenes/shipped_scenes.h"
 #include "tests/support/session/same_bits.h"
 #include "tests/support/session/small_settings.h"

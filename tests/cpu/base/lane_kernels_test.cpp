@@ -88,8 +88,8 @@ TEST_CASE("A batch of numbers gives the numbers of a vertex alone") {
     batch.draw(settings, 37);
     for (std::uint32_t i = 0; i < 37; ++i) {
         const VertexUniforms expected = draw_vertex_uniforms<kLights>(settings, states[i]);
-        CHECK(same_bits(batch.numbers(i).scatter, expected.scatter));
-        CHECK(same_bits(batch.numbers(i).light, expected.light));
+        CHECK(same_bits(batch.uniforms(i).scatter, expected.scatter));
+        CHECK(same_bits(batch.uniforms(i).light, expected.light));
     }
 }
 
