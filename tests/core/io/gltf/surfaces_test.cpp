@@ -1,5 +1,6 @@
 // glTF materials as the surfaces of the renderer: kinds, numbers, images, holes, and notes.
 #include "core/io/gltf/surfaces.h"
+#include "core/kernel/shading/velvet.h"
 
 #include <array>
 #include <cmath>
