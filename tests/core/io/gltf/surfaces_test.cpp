@@ -1,6 +1,5 @@
 // glTF materials as the surfaces of the renderer: kinds, numbers, images, holes, and notes.
 #include "core/io/gltf/surfaces.h"
-#include "core/kernel/shading/velvet.h"
 
 #include <array>
 #include <cmath>
@@ -9,6 +8,7 @@
 
 #include "core/io/mtl_surface.h"
 #include "core/kernel/shading/absorption.h"
+#include "core/kernel/shading/velvet.h"
 #include "tests/support/catch.hpp"
 #include "tests/support/files/load_gltf.h"
 #include "tests/support/files/told.h"
