@@ -1,5 +1,6 @@
 #include "tests/parity/random_case.h"
 
+#include "core/fields/field_kernels.h"
 #include "core/io/load_scene.h"
 #include "core/kernel/base/rng.h"
 #include "core/session/methods.h"
