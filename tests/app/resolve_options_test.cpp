@@ -56,7 +56,7 @@ TEST_CASE("wrong values name the option, the expected and the given value") {
         {{"--size", "64x32", "--crop", "0,0,64,33"},
          "--crop: expected a window within the picture of 64x32 pixels, got 64x33 at 0,0"},
         {{"--crop", "16383,16383,16384,16384"}, "got 16384x16384 at 16383,16383"},
-        {{"-D", ""}, "--define: expected NAME=VALUE, such as spp=64, got ''"},
+        {{"-D", ""}, "--define: expected NAME=VALUE, such as opening=5, got ''"},
         {{"-D", "name"}, "--define: expected NAME=VALUE"},
         {{"-D", "=3"}, "--define: expected NAME=VALUE"},
         {{"-D", "a=1\n2"}, "--define: expected NAME=VALUE"},
