@@ -173,7 +173,7 @@ for file in "${files[@]}"; do
     expect "atomic sums of floats in $file" "$(grep -cE '(^|[[:space:]])(atom|red)[a-z0-9_.]*\.b?f(16|32|64)' "$work/$file.ptx" || true)" -eq 0
 done
 # Sets: 0 nothing, 4 light samples, 7 smooth normals and environment too, 1351 images and many lights too, 63 lobes instead, 131071 all
-# but instances, 262143 all. Philox' key schedule and its first multiplier count the draws; doubles count the traversals; rounding down
+# but instances, 524287 all. Philox' key schedule and its first multiplier count the draws; doubles count the traversals; rounding down
 # only images and maps need. Smooth normals are recognized by their square roots: the rest of their code is less than the difference of
 # two compilations.
 measure() {
@@ -190,13 +190,13 @@ measure() {
     done
 }
 for file in "${pictures[@]}"; do
-    measure "$file" 0 4 7 63 1351 131071 262143
+    measure "$file" 0 4 7 63 1351 131071 524287
     expect "$file: instructions without and with light samples" "${size[0]}" -lt "${size[4]}"
     expect "$file: roots without and with normals and environment" "${roots[4]}" -lt "${roots[7]}"
     expect "$file: instructions without and with lobes" "${size[7]}" -lt "${size[63]}"
     expect "$file: instructions with lobes and all effects but instances" "${size[63]}" -lt "${size[131071]}"
     expect "$file: instructions with images and all effects but instances" "${size[1351]}" -lt "${size[131071]}"
-    expect "$file: instructions without and with instances" "${size[131071]}" -lt "${size[262143]}"
+    expect "$file: instructions without and with instances" "${size[131071]}" -lt "${size[524287]}"
     expect "$file: random numbers without and with light samples" "${draws[0]}" -lt "${draws[4]}"
     expect "$file: random numbers for normals and environment" "${draws[4]}" -eq "${draws[7]}"
     expect "$file: random numbers without and with lobes" "${draws[7]}" -lt "${draws[63]}"
@@ -204,13 +204,13 @@ for file in "${pictures[@]}"; do
     expect "$file: double operations for one ray" "${doubles[0]}" -le 18
     expect "$file: double operations for normals, environment and lobes" "${doubles[4]}" -eq "${doubles[63]}"
     expect "$file: roundings down without images" "${floors[63]}" -eq "${floors[0]}"
-    expect "$file: roundings down with images" "${floors[262143]}" -gt "${floors[63]}"
+    expect "$file: roundings down with images" "${floors[524287]}" -gt "${floors[63]}"
 done
 for file in "${learners[@]}"; do
-    measure "$file" 7 262143
-    expect "$file: instructions with some and all effects" "${size[7]}" -lt "${size[262143]}"
+    measure "$file" 7 524287
+    expect "$file: instructions with some and all effects" "${size[7]}" -lt "${size[524287]}"
     expect "$file: double operations for two rays" "${doubles[7]}" -le 36
-    expect "$file: roundings down without and with images" "${floors[7]}" -lt "${floors[262143]}"
+    expect "$file: roundings down without and with images" "${floors[7]}" -lt "${floors[524287]}"
 done
 for file in "${paths[@]}"; do
     measure "$file" 7

@@ -112,7 +112,7 @@ inline constexpr FeatureSet kCompiledSets[] = {
     kPlainFeatures,
     kPlainFeatures.with(features(Feature::Textures, Feature::EnvironmentMap, Feature::ManyLights)),
     kPlainFeatures.with(kLobeFeatures),
-    kEveryFeature.without(Feature::Instances),
+    kEveryFeature.without(Feature::Instances).without(Feature::Velvet),
     kEveryFeature,
 };
 inline constexpr int kCompiledSetCount = static_cast<int>(sizeof(kCompiledSets) / sizeof(kCompiledSets[0]));
