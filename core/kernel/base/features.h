@@ -105,7 +105,7 @@ inline constexpr FeatureSet kPlainFeatures =
 
 /// The compiled sets, each before its supersets; the last one holds every feature. Chosen by what scenes need, one group after the
 /// other: boxes, rooms of Lambert reflectors, such rooms with images or many lamps, metals and glass without images, files of other
-/// programs, and instances, which few of these have and whose second hierarchy costs registers.
+/// programs, and instances and velvet, which few of these have: their code makes the other kernels slower.
 inline constexpr FeatureSet kCompiledSets[] = {
     features(),
     features(Feature::NextEventEstimation),
