@@ -31,7 +31,7 @@ inline constexpr ArrayOwner kOfCluster{"volume",
 
 /// Values of the new volume when one is split in two.
 enum class OnSplit {
-    Copy,    ///< those of its parent
+    Copy,    ///< the values of its parent
     Halve,   ///< both get half of the parent's
     Divide,  ///< counts: each of the two gets half, odd ones alternate by cell
     Clear,   ///< 0; the parent keeps its values
@@ -45,7 +45,7 @@ enum class ValidRange {
     NotNegative,   ///< at least 0
     BsdfFraction,  ///< kMinBsdfFraction to kMaxBsdfFraction
     Cumulative,    ///< each row rises from at least 0 to exactly 1
-    Choice,        ///< likewise, or all 0
+    Choice,        ///< each row is Cumulative, or all 0
 };
 
 /// Description of one array of a field.
@@ -96,7 +96,7 @@ constexpr auto mixture_arrays(const Owner& owner) {
     };
 }
 
-/// Those of VolumeIrradiance.
+/// The arrays of VolumeIrradiance.
 inline constexpr SpecList kIrradianceArrays{
     ArraySpec{"mean radiance", "mean radiance", kOfVolume, OnSplit::Copy, ValidRange::Amount, kZero, [](auto& t) -> auto& { return t.mean_radiance; }},
     ArraySpec{"samples", "samples", kOfVolume, OnSplit::Divide, ValidRange::Any, kZero, [](auto& t) -> auto& { return t.samples; }},
@@ -106,7 +106,7 @@ inline constexpr SpecList kIrradianceArrays{
     ArraySpec{"changes", "change", kOfVolume, OnSplit::Copy, ValidRange::Amount, kZero, [](auto& t) -> auto& { return t.change; }},
 };
 
-/// Those of LightSampleSums.
+/// The arrays of LightSampleSums.
 inline constexpr SpecList kLightArrays{
     ArraySpec{"sums of direct light", "sum of direct light", kOfVolume, OnSplit::Clear, ValidRange::NotNegative, kZero, [](auto& t) -> auto& { return t.pending_direct; }},
     ArraySpec{"counts of light samples", "count of light samples", kOfVolume, OnSplit::Clear, ValidRange::Any, kZero, [](auto& t) -> auto& { return t.pending_direct_count; }},
@@ -144,7 +144,7 @@ void zip(const From& from, To& to, Fn&& fn) {
     for_each_array_of<From>([&](const auto& spec) { fn(spec.get(from), spec.get(to)); });
 }
 
-/// Lets the arrays of a view be those of a storage.
+/// Lets a view read the arrays of a storage.
 template <class List, class View, class Storage>
 void set_arrays(const List& list, View& view, Storage& arrays) {
     for_each_spec(list, [&](const auto& spec) { spec.get(view) = view_of(spec.get(arrays)); });

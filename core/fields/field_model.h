@@ -71,7 +71,7 @@ template <FieldStorage... Storages>
 Representation representation_of(const std::variant<Storages...>& field) {
     return kRepresentations[field.index()].value;
 }
-/// That of a view; the table without a field.
+/// The representation of a view; the table without a field.
 inline Representation representation_of(const AnyFieldView& field) {
     return field.index() == 0 ? Representation::Table : kRepresentations[field.index() - 1].value;
 }

@@ -65,7 +65,7 @@ struct LobeInspector : IrradianceSummary<LobeField> {
 
     float radiance(std::uint32_t volume, int cell) const;
     float probability(std::uint32_t volume, int cell) const;
-    /// Those of the volume, spread over the cells by their probability.
+    /// The training samples of the volume, spread over the cells by their probability.
     std::uint32_t samples(std::uint32_t volume, int cell) const;
     float density(std::uint32_t volume, Vec2f square) const;
 
@@ -106,7 +106,7 @@ struct LobeModel {
     /// One step of expectation-maximization for each mixture, see mixture_fit.h.
     static void update(const FieldShape& shape, const HostVolumes&, HostLobes& lobes, int threads);
     /// No lobe, too many, weights that do not add up to 1, means that are no directions, or concentrations and distances out of range.
-    /// Without damage densities are finite and those of samples.
+    /// Without damage densities are finite, and samples follow them.
     static std::optional<FieldDamage> damage(const HostLobes& lobes);
 };
 template <template <class> class Array>

@@ -37,7 +37,7 @@ concept FieldInspector = requires(const Inspector& inspector, std::uint32_t volu
     { inspector.radiance(volume, cell) } -> std::same_as<float>;
     { inspector.probability(volume, cell) } -> std::same_as<float>;      ///< of sampling a direction of the cell
     { inspector.samples(volume, cell) } -> std::same_as<std::uint32_t>;  ///< training samples
-    /// Density of sampling the direction of a point of the unit square, relative to that of cosine sampling.
+    /// Density of sampling the direction of a point of the unit square, divided by the density of cosine sampling.
     { inspector.density(volume, Vec2f{}) } -> std::same_as<float>;
     { inspector.bsdf_fraction(volume) } -> std::same_as<float>;  ///< learned
 };
@@ -149,7 +149,7 @@ struct IrradianceSummary {
     float change(std::uint32_t volume) const { return field.change[volume]; }
 };
 
-/// A density relative to that of cosine sampling. `local`: its direction in the frame of the normal.
+/// A density divided by the density of cosine sampling. `local`: its direction in the frame of the normal.
 inline float relative_to_cosine(float pdf_sa, Vec3f local) {
     const float cosine = max_of(local.z, 1.0e-4f);  // of the outermost points: rounding noise below
     return pdf_sa * kPi / cosine;

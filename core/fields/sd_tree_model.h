@@ -55,7 +55,7 @@ struct SdTreeInspector : IrradianceSummary<SdTreeField> {
 
     float radiance(std::uint32_t volume, int cell) const;
     float probability(std::uint32_t volume, int cell) const;
-    /// Those of the volume, spread over the cells by their probability.
+    /// The training samples of the volume, spread over the cells by their probability.
     std::uint32_t samples(std::uint32_t volume, int cell) const;
     float density(std::uint32_t volume, Vec2f square) const;
 };
@@ -113,11 +113,11 @@ struct SdTreeModel {
     /// The leaf at the volume forgets its directions with it. The shape of the quadtree stays: the next update joins its quadrants.
     static void forget(const FieldShape& shape, const HostVolumes& volumes, HostSdTree& tree, std::size_t volume);
     /// Nodes out of order, unreachable, shared or too deep, or sums that are not those of children. Without damage every lookup ends at
-    /// a leaf and at a slot that exist, and densities are those of samples.
+    /// a leaf and at a slot that exist, and samples follow the densities.
     static std::optional<FieldDamage> damage(const HostSdTree& tree);
 
     static constexpr std::uint32_t kMostNodes = kMostQuadNodes;
-    /// Of a quadtree, at most.
+    /// Bytes of a node of a quadtree, at most.
     static std::size_t bytes_of_node();
 };
 template <template <class> class Array>

@@ -1,4 +1,4 @@
-// Colors by other primaries than those of sRGB.
+// Colors by primaries other than the primaries of sRGB.
 #pragma once
 
 #include <glm/glm.hpp>

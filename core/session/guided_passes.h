@@ -1,4 +1,4 @@
-// Which passes of a film are guided, and which are those of the baseline method: trials measure both, GuidingChoice decides.
+// Which passes of a film are guided, and which run by the baseline method: trials measure both, GuidingChoice decides.
 #pragma once
 
 #include <optional>

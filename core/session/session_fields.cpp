@@ -144,7 +144,7 @@ bool SessionFields::finish_pass(MethodId method, bool has_trained, bool is_due) 
     return is_updated && refine_if_due(method);
 }
 
-/// Of a slice of the map, or of its coarse part.
+/// Number of probes of a slice of the map, or of its coarse part.
 std::uint32_t SessionFields::probe_count(bool is_coarse) const {
     const int side = placement_.shape().cells.side;
     const auto bins = static_cast<std::uint32_t>(placement_.bins());

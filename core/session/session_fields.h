@@ -58,7 +58,7 @@ public:
     bool is_map_complete(MethodId method) const;
     /// Whether the probes of a coarse map are traced: the first quarter, which is enough to find out whether guiding pays.
     bool has_coarse_map(MethodId method) const;
-    /// Traces the probes of a coarse map, or those of a slice that are left. Returns false if it was stopped.
+    /// Traces the probes of a coarse map, or the remaining probes of a slice. Returns false if it was stopped.
     bool precompute(FilmSlot slot, bool is_coarse, const StopFlag* stop);
 
     /// Freezes, steps or continues learning. Returns RenderSettings::learn_passes from now on. `is_under_way`: a pass, which is

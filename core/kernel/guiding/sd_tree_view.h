@@ -8,7 +8,7 @@
 namespace pl {
 
 /// A binary tree over space, each of whose leaves has a quadtree over directions; and the irradiance of the radiance volumes.
-/// The BSDF fractions are those of leaves.
+/// BSDF fractions belong to leaves.
 /// A slot is one quadrant of a node of a quadtree: slot = 4 node + quadrant.
 template <template <class> class Learned, template <class> class Pending>
 struct SdTreeArrays : MixtureSums<Learned, Pending>,
