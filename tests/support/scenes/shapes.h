@@ -54,12 +54,16 @@ private:
     Philox block_{};
 };
 
+inline MaterialDescription with_albedo(MaterialDescription material, float albedo) {
+    material.albedo = glm::vec3{albedo};
+    return material;
+}
+
 /// Gray, not emitting.
 inline MaterialDescription gray(float albedo = 0.5f) {
     MaterialDescription material;
     material.name = "gray";
-    material.albedo = glm::vec3{albedo};
-    return material;
+    return with_albedo(material, albedo);
 }
 
 inline std::uint32_t add_vertex(SceneDescription& scene, Vec3f position) {
