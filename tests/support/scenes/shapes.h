@@ -7,6 +7,7 @@
 #include "core/kernel/base/frame.h"
 #include "core/kernel/base/rng.h"
 #include "core/scene/pack_scene.h"
+#include "tests/support/numbers.h"
 
 namespace pl::test {
 
@@ -118,7 +119,6 @@ inline void add_spiky_sphere(SceneDescription& scene, int rings, int segments, f
         return add_vertex(scene, Vec3f{Vec3d{radius * std::sin(theta) * std::cos(phi), radius * std::cos(theta),
                                              radius * std::sin(theta) * std::sin(phi)}});
     };
-    constexpr double kTurn = 6.283185307179586;
     const std::uint32_t top = vertex(0.0, 0.0);
     const auto first = static_cast<std::uint32_t>(scene.positions.size());
     for (int ring = 1; ring < rings; ++ring)

@@ -60,6 +60,11 @@ inline State state_of(Session& session, FilmSlot slot) {
 }
 inline State state_of(Session& session) { return state_of(session, slot_of(session)); }
 
+inline State state_after(Session session, std::uint32_t passes) {
+    render_passes(session, passes);
+    return state_of(session);
+}
+
 inline bool same_film(const State& a, const State& b) {
     const FilmHalves& x = a.snapshot.halves;
     const FilmHalves& y = b.snapshot.halves;
