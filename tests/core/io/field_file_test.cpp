@@ -10,6 +10,7 @@
 #include "tests/support/field/small_field.h"
 #include "tests/support/files/input_error.h"
 #include "tests/support/files/temporary_folder.h"
+#include "tests/support/same_bits.h"
 
 using namespace pl;
 using pl::test::contains;
@@ -26,10 +27,7 @@ namespace {
 constexpr std::size_t kPrefixBytes = 8 + 4 + 8;  // magic word, version, bytes
 constexpr std::size_t kChecksumBytes = 8;
 
-template <class T, class Allocator>
-bool same_bits(const std::vector<T, Allocator>& a, const std::vector<T, Allocator>& b) {
-    return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
-}
+using pl::test::same_bits;
 bool same_bits(const HostArray<SurfacePoint>& a, const HostArray<SurfacePoint>& b) {
     return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const SurfacePoint& p, const SurfacePoint& q) {
         constexpr std::size_t kWithoutPadding = offsetof(SurfacePoint, front);

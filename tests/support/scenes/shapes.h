@@ -3,6 +3,8 @@
 
 #include <cmath>
 #include <cstdint>
+#include <functional>
+#include <string>
 
 #include "core/kernel/base/frame.h"
 #include "core/kernel/base/rng.h"
@@ -65,6 +67,20 @@ inline MaterialDescription gray(float albedo = 0.5f) {
     MaterialDescription material;
     material.name = "gray";
     return with_albedo(material, albedo);
+}
+
+/// A scene, and its name in messages.
+struct NamedScene {
+    std::string name;
+    HostScene scene;
+};
+
+/// A scene of gray triangles.
+inline HostScene gray_scene(const std::function<void(SceneDescription&)>& build) {
+    SceneDescription description;
+    description.materials.push_back(gray());
+    build(description);
+    return pack_scene(description);
 }
 
 inline std::uint32_t add_vertex(SceneDescription& scene, Vec3f position) {

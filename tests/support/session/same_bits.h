@@ -3,14 +3,10 @@
 
 #include <cstring>
 
+#include "tests/support/same_bits.h"
 #include "tests/support/session/sessions.h"
 
 namespace pl::test {
-
-template <class T, class Allocator>
-bool same_bits(const std::vector<T, Allocator>& a, const std::vector<T, Allocator>& b) {
-    return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
-}
 
 /// Every array, so that a new one is compared as well.
 template <class Arrays>
