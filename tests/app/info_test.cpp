@@ -62,8 +62,8 @@ TEST_CASE("info describes metals and glass by what they are") {
     const std::string cloth = run_program({"info", folder / "a.json", "-q"}).out;
     CHECK_THAT(cloth, contains("wall: reflects 0.5,0.5,0.5 under a sheen of 1,0.5,0, roughness 0.5, emits 0,0,0\n"));
     CHECK_THAT(cloth, contains("velvet: of 1 material: wall\n"));
-    const ProgramResult json = run_program({"info", folder / "a.obj", "--json"});
-    const ordered_json gold = ordered_json::parse(lines_of(json.out).back())["materials"][0];
+    const ProgramResult record = run_program({"info", folder / "a.obj", "--json"});
+    const ordered_json gold = ordered_json::parse(lines_of(record.out).back())["materials"][0];
     CHECK(gold["surface"] == "conductor");
     CHECK(gold["specular"] == ordered_json::array({1.0, 0.75, 0.25}));
     CHECK(gold["roughness"] == 0.5);
