@@ -7,7 +7,7 @@ include(Catch)
 # The time limit of a case is a guard against hangs, far beyond its time on a busy machine: no verdict depends on speed.
 # PROCESSORS: how many cores a case needs for itself (default 1). Threads that wait do so asleep: tests run side by side,
 # some with more threads than there are cores, and each spinning thread would keep a working one from its core.
-# COMPILE_FAST: with -O1, for tests whose time is spent in the libraries and programs that they call.
+# COMPILE_FAST: with -O1, for tests that take seconds to run, or spend their time in the libraries and programs that they call.
 function(pl_add_test name)
     cmake_parse_arguments(PARSE_ARGV 1 arg "COMPILE_FAST" "PROCESSORS" "SOURCES;LIBS;LABELS")
     pl_check_arguments(pl_add_test "${name}" "${arg_SOURCES}" "${arg_UNPARSED_ARGUMENTS}")

@@ -18,6 +18,7 @@
 #include "tests/support/scenes/obj_difference.h"
 
 using namespace pl;
+using pl::test::kThreeVertices;
 
 namespace {
 
