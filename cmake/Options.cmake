@@ -14,7 +14,7 @@ if(PL_CCACHE AND NOT DEFINED CMAKE_CUDA_COMPILER_LAUNCHER)
 endif()
 # Unity builds: most of a file's time is the parsing of headers and the instantiation of the standard library, which
 # files share in one. Presets for development compile file by file: an edit rebuilds one file, and a missing
-# #include line is found. Libraries with kernels and tests always do.
+# #include line is found. Libraries with kernels always do.
 set(CMAKE_UNITY_BUILD_BATCH_SIZE 32)
 
 add_library(pl_options INTERFACE)

@@ -7,7 +7,7 @@ include(Catch)
 # The time limit of a case is a guard against hangs, far beyond its time on a busy machine: no verdict depends on speed.
 # PROCESSORS: how many cores a case needs for itself (default 1). Threads that wait do so asleep: tests run side by side,
 # some with more threads than there are cores, and each spinning thread would keep a working one from its core.
-# COMPILE_FAST: with -O1, for tests whose time is spent in the libraries and programs that they call.
+# COMPILE_FAST: with -O1, for tests that take seconds to run, or spend their time in the libraries and programs that they call.
 function(pl_add_test name)
     cmake_parse_arguments(PARSE_ARGV 1 arg "COMPILE_FAST" "PROCESSORS" "SOURCES;LIBS;LABELS")
     pl_check_arguments(pl_add_test "${name}" "${arg_SOURCES}" "${arg_UNPARSED_ARGUMENTS}")
@@ -17,13 +17,19 @@ function(pl_add_test name)
     add_executable(${name} ${arg_SOURCES})
     target_link_libraries(${name} PRIVATE ${arg_LIBS} pl_margins pl_options pl_warnings dep::catch2)
     target_compile_definitions(${name} PRIVATE PL_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
-    set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/bin")
+    set_target_properties(${name} PROPERTIES
+        UNITY_BUILD "${PL_TEST_UNITY}"
+        RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/bin")
     if(arg_COMPILE_FAST)
         # With less analysis gcc 12 warns of sound strings of the standard library (PR 105651).
         target_compile_options(${name} PRIVATE -O1
             $<$<CXX_COMPILER_ID:GNU>:-Wno-array-bounds;-Wno-stringop-overflow;-Wno-stringop-overread;-Wno-restrict>)
     endif()
-    pl_precompile_headers(${name} ${arg_SOURCES})
+    if(PL_TEST_UNITY)
+        pl_compile_alone(${name})
+    else()
+        pl_precompile_headers(${name} ${arg_SOURCES})
+    endif()
 
     pl_discover(${name} push "~[merge]~[nightly]~[.]" 1200)
     pl_has_tag(in_merge merge ${arg_SOURCES})
@@ -36,7 +42,19 @@ function(pl_add_test name)
     endif()
 endfunction()
 
-# Parsing Catch2, GLM and the standard library is a fifth of the time of a test's source: programs of many sources share it.
+# The same sources one by one, for tests_alone: a batch of a unity build hides that a source lacks an #include line.
+function(pl_compile_alone name)
+    add_library(${name}_alone OBJECT EXCLUDE_FROM_ALL
+        "$<FILTER:$<TARGET_PROPERTY:${name},SOURCES>,EXCLUDE,/Unity/>")
+    target_link_libraries(${name}_alone PRIVATE "$<TARGET_PROPERTY:${name},LINK_LIBRARIES>")
+    target_compile_definitions(${name}_alone PRIVATE "$<TARGET_PROPERTY:${name},COMPILE_DEFINITIONS>")
+    target_compile_options(${name}_alone PRIVATE -O0)
+    set_target_properties(${name}_alone PROPERTIES EXPORT_COMPILE_COMMANDS OFF)
+    add_dependencies(tests_alone ${name}_alone)
+endfunction()
+
+# Parsing Catch2, GLM and the standard library is a fifth of the time of a test's source: programs of many sources share it where
+# each is compiled alone. To batches of a unity build it brings nothing.
 # Headers of the project are not among them, so that an edit compiles only what includes it.
 function(pl_precompile_headers name)
     list(LENGTH ARGN sources)
@@ -58,7 +76,9 @@ function(pl_add_bench name)
     add_executable(${name} ${arg_SOURCES})
     target_link_libraries(${name} PRIVATE ${arg_LIBS} pl_options pl_warnings)
     target_compile_definitions(${name} PRIVATE PL_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
-    set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/bench")
+    set_target_properties(${name} PROPERTIES
+        UNITY_BUILD "${PL_TEST_UNITY}"
+        RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/bench")
 endfunction()
 
 function(pl_check_arguments function name sources unparsed)

@@ -4,8 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/support/catch.hpp"
-#include "tests/support/program/joined_arguments.h"
-#include "tests/support/program/refusal.h"
+#include "tests/support/program/outcome.h"
 
 namespace pl::test {
 namespace {
@@ -13,17 +12,10 @@ namespace {
 using nlohmann::json;
 namespace fs = std::filesystem;
 
-Arguments render(const std::string& output, std::uint32_t spp, const Arguments& more) {
+Arguments render_refined(const std::string& output, std::uint32_t spp, const Arguments& more) {
     return joined({"render", "cornell", "-o", output, "--size", "32x32", "--volumes", "60", "--bins", "64", "--learn",
                    "refine=0.5", "--spp", std::to_string(spp)},
                   more);
-}
-
-ProgramResult run_well(const Arguments& arguments) {
-    ProgramResult result = run_program(arguments);
-    CAPTURE(arguments, result.err);
-    REQUIRE(result.code == 0);
-    return result;
 }
 
 /// All but times and threads.
@@ -46,9 +38,10 @@ TEST_CASE("a run that is interrupted leaves a checkpoint, and one that resumes f
         const TempDir folder;
         CAPTURE(run.method, run.signal);
         const Arguments same{"--method", run.method, "--nee", run.nee};
-        RunningProgram running(program(render(folder / "a.pfm", 1000000000,
-                                              joined(same, {"--checkpoint", folder / "c", "--checkpoint-every", "0",
-                                                            "--stats", folder / "a.json", "-t", "2"}))));
+        RunningProgram running(
+            program(render_refined(folder / "a.pfm", 1000000000,
+                                   joined(same, {"--checkpoint", folder / "c", "--checkpoint-every", "0", "--stats",
+                                                 folder / "a.json", "-t", "2"}))));
         REQUIRE(running.wait_until([&] { return fs::exists(folder / "c"); }));
         running.send(run.signal);
         const ProgramResult result = running.wait();
@@ -57,9 +50,9 @@ TEST_CASE("a run that is interrupted leaves a checkpoint, and one that resumes f
         CHECK_THAT(result.err, contains("--resume"));
         CHECK((folder.names() == std::vector<std::string>{"a.json", "a.pfm", "c"}));
         const std::uint32_t spp = json::parse(read_all(folder / "a.json"))["spp"].get<std::uint32_t>() + 2;
-        run_well(render(folder / "b.pfm", spp,
-                        joined(same, {"--resume", folder / "c", "--stats", folder / "b.json", "-t", "1"})));
-        run_well(render(folder / "w.pfm", spp, joined(same, {"--stats", folder / "w.json", "-t", "2"})));
+        run_well(render_refined(folder / "b.pfm", spp,
+                                joined(same, {"--resume", folder / "c", "--stats", folder / "b.json", "-t", "1"})));
+        run_well(render_refined(folder / "w.pfm", spp, joined(same, {"--stats", folder / "w.json", "-t", "2"})));
         CHECK((read_all(folder / "b.pfm") == read_all(folder / "w.pfm")));
         CHECK(counts_of(folder / "b.json") == counts_of(folder / "w.json"));
     }
@@ -67,21 +60,21 @@ TEST_CASE("a run that is interrupted leaves a checkpoint, and one that resumes f
 
 TEST_CASE("checkpoints are written along the way, and a killed program leaves the last one whole") {
     const TempDir folder;
-    RunningProgram running(
-        program(render(folder / "a.pfm", 1000000000,
+    RunningProgram running(program(
+        render_refined(folder / "a.pfm", 1000000000,
                        {"--method", "reinforcement", "--checkpoint", folder / "c", "--checkpoint-every", "0"})));
     REQUIRE(running.wait_until([&] { return fs::exists(folder / "c"); }));
     running.send(SIGKILL);
     CHECK(running.wait().code == 128 + SIGKILL);
-    run_well(render(folder / "b.pfm", 1, {"--method", "reinforcement", "--resume", folder / "c"}));
+    run_well(render_refined(folder / "b.pfm", 1, {"--method", "reinforcement", "--resume", folder / "c"}));
 }
 
 TEST_CASE("a checkpoint that cannot be written does not end the rendering, and the next one is tried") {
     const TempDir folder;
     fs::create_directory(folder / "d");
     const auto start = [&] {
-        return program(
-            render(folder / "a.pfm", 1000000000, {"--checkpoint", folder / "d/c", "--checkpoint-every", "0"}));
+        return program(render_refined(folder / "a.pfm", 1000000000,
+                                      {"--checkpoint", folder / "d/c", "--checkpoint-every", "0"}));
     };
     const auto loses_its_folder = [&](RunningProgram& running) {
         REQUIRE(running.wait_until([&] { return fs::exists(folder / "d/c"); }));
@@ -112,13 +105,13 @@ TEST_CASE("a checkpoint that cannot be written does not end the rendering, and t
     CAPTURE(with.err);
     CHECK(with.code == 130);
     CHECK_THAT(with.err, contains("goes on from here"));
-    run_well(render(folder / "b.pfm", 1, {"--resume", folder / "d/c"}));
+    run_well(render_refined(folder / "b.pfm", 1, {"--resume", folder / "d/c"}));
 }
 
 TEST_CASE("seconds of work go on where a run is resumed") {
     const TempDir folder;
-    run_well(render(folder / "a.pfm", 4, {"--checkpoint", folder / "c", "--stats", folder / "a.json"}));
-    run_well(render(folder / "b.pfm", 4, {"--resume", folder / "c", "--stats", folder / "b.json"}));
+    run_well(render_refined(folder / "a.pfm", 4, {"--checkpoint", folder / "c", "--stats", folder / "a.json"}));
+    run_well(render_refined(folder / "b.pfm", 4, {"--resume", folder / "c", "--stats", folder / "b.json"}));
     CHECK((read_all(folder / "a.pfm") == read_all(folder / "b.pfm")));
     const json first = json::parse(read_all(folder / "a.json"));
     const json second = json::parse(read_all(folder / "b.json"));
@@ -127,7 +120,7 @@ TEST_CASE("seconds of work go on where a run is resumed") {
 
 TEST_CASE("checkpoints that do not fit are refused") {
     const TempDir folder;
-    run_well(render(folder / "a.pfm", 2, {"--checkpoint", folder / "c"}));
+    run_well(render_refined(folder / "a.pfm", 2, {"--checkpoint", folder / "c"}));
     const std::string whole = read_all(folder / "c");
     write_all(folder / "cut", whole.substr(0, whole.size() / 2));
     write_all(folder / "text", "hello\n");
@@ -138,7 +131,7 @@ TEST_CASE("checkpoints that do not fit are refused") {
     damaged[whole.size() / 2] = static_cast<char>(damaged[whole.size() / 2] ^ 1);
     write_all(folder / "damaged", damaged);
     const auto resume = [&](const std::string& name, const Arguments& more = {}) {
-        return render(folder / "x.pfm", 4, joined({"--resume", folder / name}, more));
+        return render_refined(folder / "x.pfm", 4, joined({"--resume", folder / name}, more));
     };
     check_refused(3, resume("c", {"--seed", "2"}), "c: the checkpoint is of another run: seed: expected 2, got 1");
     check_refused(3, resume("c", {"--size", "16x16"}), "size: expected 16x16, got 32x32");
@@ -149,8 +142,9 @@ TEST_CASE("checkpoints that do not fit are refused") {
     check_refused(3, resume("version"), "version: checkpoint of another version: expected 8, got 99");
     check_refused(3, resume("text"), "text: not a checkpoint");
     check_refused(3, resume("none"), "no such file");
-    check_refused(2, render(folder / "x.pfm", 2, {"--checkpoint-every", "3"}), "expected --checkpoint FILE");
-    check_refused(1, render(folder / "x.pfm", 2, {"--checkpoint", folder / "gone/c"}), "gone/c: cannot be written");
+    check_refused(2, render_refined(folder / "x.pfm", 2, {"--checkpoint-every", "3"}), "expected --checkpoint FILE");
+    check_refused(1, render_refined(folder / "x.pfm", 2, {"--checkpoint", folder / "gone/c"}),
+                  "gone/c: cannot be written");
 }
 
 }  // namespace pl::test

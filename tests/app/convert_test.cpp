@@ -15,22 +15,17 @@ namespace {
 
 using nlohmann::ordered_json;
 
-Arguments with(Arguments arguments, const Arguments& more) {
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return arguments;
-}
-
 std::string picture(const TempDir& folder, const std::string& scene, const Arguments& more = {}) {
     const std::string file = folder / "picture.pfm";
     const ProgramResult result =
-        run_program(with({"render", scene, "-o", file, "--size", "16x12", "--spp", "2", "-q", "-t", "1"}, more));
+        run_program(joined({"render", scene, "-o", file, "--size", "16x12", "--spp", "2", "-q", "-t", "1"}, more));
     CAPTURE(scene, result.err);
     REQUIRE(result.code == 0);
     return read_all(file);
 }
 
 void convert(const std::string& scene, const std::string& file, const Arguments& more = {}) {
-    const ProgramResult result = run_program(with({"convert", scene, "-o", file}, more));
+    const ProgramResult result = run_program(joined({"convert", scene, "-o", file}, more));
     CAPTURE(scene, result.err);
     REQUIRE(result.code == 0);
 }

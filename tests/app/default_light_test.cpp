@@ -7,7 +7,7 @@
 
 #include "core/io/image.h"
 #include "tests/support/catch.hpp"
-#include "tests/support/program/refusal.h"
+#include "tests/support/program/outcome.h"
 
 namespace pl::test {
 namespace {

@@ -6,7 +6,7 @@
 #include "core/diagnose/diagnostics.h"
 #include "core/io/image.h"
 #include "core/kernel/film/frame_pixel.h"
-#include "tests/support/program/refusal.h"
+#include "tests/support/program/outcome.h"
 
 namespace pl::test {
 namespace {
@@ -24,9 +24,8 @@ std::string write_bright_room(const TempDir& folder) {
 
 /// Members of the event.
 json diagnostics_of(const std::string& scene, const std::string& picture, const Arguments& more) {
-    Arguments arguments{"trace", scene, "--size", "20x12", "--backend", "cpu", "--diagnostics", picture, "--json"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    const ProgramResult result = run_program(arguments);
+    const ProgramResult result = run_program(
+        joined({"trace", scene, "--size", "20x12", "--backend", "cpu", "--diagnostics", picture, "--json"}, more));
     CAPTURE(result.err);
     REQUIRE(result.code == 0);
     for (const std::string& line : lines_of(result.out))

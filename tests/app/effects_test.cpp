@@ -2,7 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/kernel/base/features.h"
-#include "tests/support/program/refusal.h"
+#include "tests/support/program/outcome.h"
 
 namespace pl::test {
 

@@ -5,49 +5,36 @@
 
 #include "core/io/image.h"
 #include "tests/support/catch.hpp"
-#include "tests/support/program/refusal.h"
+#include "tests/support/program/outcome.h"
 
 namespace pl::test {
 namespace {
 
 using nlohmann::json;
 
-const std::vector<std::string> kMethods{"precomputed", "reinforcement"};
+const std::vector<std::string> kLearningMethods{"precomputed", "reinforcement"};
 
-Arguments joined(Arguments arguments, const Arguments& more) {
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return arguments;
-}
-
-Arguments render(const std::string& output, const Arguments& more) {
+Arguments render_door(const std::string& output, const Arguments& more) {
     return joined({"render", "door", "-o", output, "--size", "32x32", "--spp", "4"}, more);
 }
 
 /// Few volumes, so that tables have samples after a few passes.
-const Arguments kSmall{"--volumes", "60", "--bins", "64"};
+const Arguments kSmallField{"--volumes", "60", "--bins", "64"};
 
-/// Runs a command that has to succeed.
-ProgramResult run_well(const Arguments& arguments) {
-    ProgramResult result = run_program(arguments);
-    CAPTURE(arguments, result.err);
-    REQUIRE(result.code == 0);
-    return result;
-}
-
-json stats_of(const TempDir& folder) { return json::parse(read_all(folder / "s.json")); }
+json stats_in(const TempDir& folder) { return json::parse(read_all(folder / "s.json")); }
 
 }  // namespace
 
 TEST_CASE("a run that loads a field goes on from it") {
-    for (const std::string& method : kMethods) {
+    for (const std::string& method : kLearningMethods) {
         CAPTURE(method);
         const TempDir folder;
-        run_well(joined(render(folder / "a.pfm", {"--method", method, "--save-field", folder / "f"}),
-                        joined(kSmall, {"--stats", folder / "s.json"})));
-        const json first = stats_of(folder);
-        run_well(render(folder / "b.pfm",
-                        {"--load-field", folder / "f", "--save-field", folder / "g", "--stats", folder / "s.json"}));
-        const json second = stats_of(folder);
+        run_well(joined(render_door(folder / "a.pfm", {"--method", method, "--save-field", folder / "f"}),
+                        joined(kSmallField, {"--stats", folder / "s.json"})));
+        const json first = stats_in(folder);
+        run_well(render_door(folder / "b.pfm", {"--load-field", folder / "f", "--save-field", folder / "g", "--stats",
+                                                folder / "s.json"}));
+        const json second = stats_in(folder);
         CHECK(second["method"] == method);
         CHECK(second["field"]["volumes"] == first["field"]["volumes"]);
         CHECK(second["field"]["bins"] == 64);
@@ -78,10 +65,10 @@ TEST_CASE("a run that loads a field goes on from it") {
 
 TEST_CASE("field files have the same bits for any number of threads") {
     const TempDir folder;
-    for (const std::string& method : kMethods) {
+    for (const std::string& method : kLearningMethods) {
         const auto saved = [&](const Arguments& more) {
-            run_well(joined(render(folder / "x.pfm", {"--method", method, "--save-field", folder / "f"}),
-                            joined(kSmall, more)));
+            run_well(joined(render_door(folder / "x.pfm", {"--method", method, "--save-field", folder / "f"}),
+                            joined(kSmallField, more)));
             return read_all(folder / "x.pfm");
         };
         CAPTURE(method);
@@ -91,7 +78,7 @@ TEST_CASE("field files have the same bits for any number of threads") {
         CHECK(read_all(folder / "f") == field);
 
         const auto loaded = [&](const Arguments& more) {
-            run_well(render(folder / "y.pfm", joined({"--load-field", folder / "f"}, more)));
+            run_well(render_door(folder / "y.pfm", joined({"--load-field", folder / "f"}, more)));
             return read_all(folder / "y.pfm");
         };
         const std::string next = loaded({});
@@ -101,8 +88,9 @@ TEST_CASE("field files have the same bits for any number of threads") {
 
 TEST_CASE("the command in a picture loads the field again") {
     const TempDir folder;
-    run_well(joined(render(folder / "a.png", {"--method", "reinforcement", "--save-field", folder / "f"}), kSmall));
-    run_well(render(folder / "b.png", {"--load-field", folder / "f"}));
+    run_well(joined(render_door(folder / "a.png", {"--method", "reinforcement", "--save-field", folder / "f"}),
+                    kSmallField));
+    run_well(render_door(folder / "b.png", {"--load-field", folder / "f"}));
     ImageMetadata metadata;
     const std::vector<std::uint8_t> pixels = read_png8(folder / "b.png", &metadata).rgb;
     const auto command =
@@ -115,7 +103,7 @@ TEST_CASE("the command in a picture loads the field again") {
 }
 
 TEST_CASE("a loaded field is inspected as it is, unless training is requested") {
-    for (const std::string& method : kMethods) {
+    for (const std::string& method : kLearningMethods) {
         CAPTURE(method);
         const TempDir folder;
         const auto inspected = [&](const Arguments& more) {
@@ -124,7 +112,7 @@ TEST_CASE("a loaded field is inspected as it is, unless training is requested") 
             return json::parse(read_all(folder / "x.json"));
         };
         const json first =
-            inspected(joined(kSmall, {"--method", method, "--spp", "3", "--save-field", folder / "f"}));
+            inspected(joined(kSmallField, {"--method", method, "--spp", "3", "--save-field", folder / "f"}));
         const json again = inspected({"--load-field", folder / "f"});
         CHECK(again["method"] == method);
         CHECK(again["spp"] == 0);
@@ -140,7 +128,8 @@ TEST_CASE("a loaded field is inspected as it is, unless training is requested") 
 
 TEST_CASE("fields that do not fit are refused with the right exit code, and no picture is written") {
     const TempDir folder;
-    run_well(joined(render(folder / "a.pfm", {"--method", "reinforcement", "--save-field", folder / "f"}), kSmall));
+    run_well(joined(render_door(folder / "a.pfm", {"--method", "reinforcement", "--save-field", folder / "f"}),
+                    kSmallField));
     std::filesystem::remove(folder / "a.pfm");
     const std::string good = read_all(folder / "f");
     std::string damaged = good;
@@ -154,29 +143,29 @@ TEST_CASE("fields that do not fit are refused with the right exit code, and no p
         std::string message;
     };
     const std::vector<Wrong> wrongs{
-        {3, render(folder / "a.pfm", {"--load-field", folder / "damaged"}),
+        {3, render_door(folder / "a.pfm", {"--load-field", folder / "damaged"}),
          "damaged: damaged field: expected the check"},
-        {3, render(folder / "a.pfm", {"--load-field", folder / "cut"}), "cut: damaged field: expected"},
-        {3, render(folder / "a.pfm", {"--load-field", folder / "text"}), "text: not a learned field"},
-        {3, render(folder / "a.pfm", {"--load-field", folder / "gone"}), "gone: cannot be read: no such file"},
+        {3, render_door(folder / "a.pfm", {"--load-field", folder / "cut"}), "cut: damaged field: expected"},
+        {3, render_door(folder / "a.pfm", {"--load-field", folder / "text"}), "text: not a learned field"},
+        {3, render_door(folder / "a.pfm", {"--load-field", folder / "gone"}), "gone: cannot be read: no such file"},
         {3,
          {"render", "cornell", "-o", folder / "a.pfm", "--load-field", folder / "f"},
          "f: the field was learned in an"},
         {3,
          {"inspect", "cornell", "--pixel", "1,1", "-o", folder / "a.csv", "--load-field", folder / "f"},
          "f: the field was learned in another scene: expected scene hash"},
-        {2, render(folder / "a.pfm", {"--load-field", folder / "f", "--method", "default"}),
+        {2, render_door(folder / "a.pfm", {"--load-field", folder / "f", "--method", "default"}),
          "--method reinforcement"},
-        {2, render(folder / "a.pfm", {"--load-field", folder / "f", "--bins", "256"}), "learned with --bins 64"},
-        {2, render(folder / "a.pfm", {"--save-field", folder / "g"}), "--method default learns nothing"},
+        {2, render_door(folder / "a.pfm", {"--load-field", folder / "f", "--bins", "256"}), "learned with --bins 64"},
+        {2, render_door(folder / "a.pfm", {"--save-field", folder / "g"}), "--method default learns nothing"},
         {3,
          {"view", "cornell", "--backend", "cpu", "--load-field", folder / "f"},
          "f: the field was learned in another"},
         {3, {"view", "door", "--backend", "cpu", "--load-field", folder / "gone"}, "gone: cannot be read"},
         {2, {"view", "door", "--save-field", folder / "g"}, "--save-field: the viewer saves the learned field when"},
         {1,
-         render(folder / "a.pfm",
-                {"--method", "reinforcement", "--save-field", folder / "gone/g", "--time-limit", "1000000"}),
+         render_door(folder / "a.pfm",
+                     {"--method", "reinforcement", "--save-field", folder / "gone/g", "--time-limit", "1000000"}),
          "gone/g: cannot be written"},
     };
     for (const Wrong& wrong : wrongs) check_refused(wrong.code, wrong.arguments, wrong.message);
@@ -194,8 +183,8 @@ TEST_CASE("an interruption keeps the field learned so far, and another run compl
     CHECK(result.code == 130);
     CHECK_THAT(result.out, contains("\"event\":\"field\""));
     CHECK((folder.names() == std::vector<std::string>{"a.pfm", "f"}));
-    run_well(render(folder / "b.pfm", {"--load-field", folder / "f", "--stats", folder / "s.json"}));
-    CHECK(stats_of(folder)["field"]["passes"] > 4);
+    run_well(render_door(folder / "b.pfm", {"--load-field", folder / "f", "--stats", folder / "s.json"}));
+    CHECK(stats_in(folder)["field"]["passes"] > 4);
 }
 
 TEST_CASE("a radiance map that was interrupted is completed by the run that loads it") {

@@ -10,17 +10,15 @@ namespace {
 
 using nlohmann::json;
 
-ProgramResult traced(const TempDir& folder, const std::string& gain, const Arguments& more) {
-    Arguments arguments{"trace", "door", "--size", "64x48", "--spp", "4", "--gain", folder / gain};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return run_program(arguments);
+ProgramResult traced_gain(const TempDir& folder, const std::string& gain, const Arguments& more) {
+    return run_program(joined({"trace", "door", "--size", "64x48", "--spp", "4", "--gain", folder / gain}, more));
 }
 
 }  // namespace
 
 TEST_CASE("the gain of a picture comes by tiles") {
     const TempDir folder;
-    const ProgramResult result = traced(folder, "gain.json", {"--method", "reinforcement"});
+    const ProgramResult result = traced_gain(folder, "gain.json", {"--method", "reinforcement"});
     CAPTURE(result.err);
     REQUIRE(result.code == 0);
     const json gain = json::parse(read_all(folder / "gain.json"));
@@ -36,14 +34,14 @@ TEST_CASE("the gain of a picture comes by tiles") {
 
 TEST_CASE("as a PNG the gain is the picture with marks") {
     const TempDir folder;
-    REQUIRE(traced(folder, "gain.png", {"--method", "reinforcement"}).code == 0);
+    REQUIRE(traced_gain(folder, "gain.png", {"--method", "reinforcement"}).code == 0);
     CHECK(read_all(folder / "gain.png").substr(1, 3) == "PNG");
 }
 
 TEST_CASE("a gain needs a guided method, the whole picture, and a known kind of file") {
     const TempDir folder;
     const auto refusal = [&](const std::string& file, const Arguments& more) {
-        const ProgramResult result = traced(folder, file, more);
+        const ProgramResult result = traced_gain(folder, file, more);
         CHECK(result.code == 2);
         return result.err;
     };

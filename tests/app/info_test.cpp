@@ -62,8 +62,8 @@ TEST_CASE("info describes metals and glass by what they are") {
     const std::string cloth = run_program({"info", folder / "a.json", "-q"}).out;
     CHECK_THAT(cloth, contains("wall: reflects 0.5,0.5,0.5 under a sheen of 1,0.5,0, roughness 0.5, emits 0,0,0\n"));
     CHECK_THAT(cloth, contains("velvet: of 1 material: wall\n"));
-    const ProgramResult json = run_program({"info", folder / "a.obj", "--json"});
-    const ordered_json gold = ordered_json::parse(lines_of(json.out).back())["materials"][0];
+    const ProgramResult record = run_program({"info", folder / "a.obj", "--json"});
+    const ordered_json gold = ordered_json::parse(lines_of(record.out).back())["materials"][0];
     CHECK(gold["surface"] == "conductor");
     CHECK(gold["specular"] == ordered_json::array({1.0, 0.75, 0.25}));
     CHECK(gold["roughness"] == 0.5);
@@ -74,12 +74,12 @@ TEST_CASE("info tells the triangles of meshes that are kept once, and those of a
     write_all(folder / "a.glb", forest().glb());
     CHECK_THAT(run_program({"info", folder / "a.glb", "-q"}).out,
                contains("triangles  1 directly, 8000 of 1 mesh shown by 10000 instances: 80000001 in all\n"));
-    const ordered_json json =
+    const ordered_json record =
         ordered_json::parse(lines_of(run_program({"info", folder / "a.glb", "--json"}).out).back());
-    CHECK(json["triangles"] == 8001);
-    CHECK(json["meshes"] == 1);
-    CHECK(json["instances"] == 10000);
-    CHECK(json["shown_triangles"] == 80000001);
+    CHECK(record["triangles"] == 8001);
+    CHECK(record["meshes"] == 1);
+    CHECK(record["instances"] == 10000);
+    CHECK(record["shown_triangles"] == 80000001);
     const ProgramResult cornell = run_program({"info", "cornell", "--json"});
     const ordered_json box = ordered_json::parse(lines_of(cornell.out).back());
     CHECK_FALSE(box.contains("instances"));

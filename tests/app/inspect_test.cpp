@@ -16,10 +16,9 @@ namespace {
 using nlohmann::json;
 
 Arguments inspect(const std::string& output, const Arguments& more) {
-    Arguments arguments{"inspect", "cornell", "-o",        output, "--size", "32x32",
-                        "--spp",   "4",       "--volumes", "60",   "--bins", "64"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return arguments;
+    return joined(
+        {"inspect", "cornell", "-o", output, "--size", "32x32", "--spp", "4", "--volumes", "60", "--bins", "64"},
+        more);
 }
 
 json inspected(const Arguments& more) {

@@ -1,7 +1,7 @@
 // Every exit code of the program, with its message.
 #include "core/io/image.h"
 #include "tests/support/catch.hpp"
-#include "tests/support/program/refusal.h"
+#include "tests/support/program/outcome.h"
 
 namespace pl::test {
 namespace {
@@ -9,10 +9,8 @@ namespace {
 /// A triangle seen from in front.
 const char* const kTriangle = "v -1 -1 0\nv 1 -1 0\nv 0 1 0\nf 1 2 3\n";
 
-Arguments render(const std::string& scene, const std::string& output, const Arguments& more = {}) {
-    Arguments arguments{"render", scene, "-o", output, "--size", "8x8", "--spp", "1"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return arguments;
+Arguments render_tiny(const std::string& scene, const std::string& output, const Arguments& more = {}) {
+    return joined({"render", scene, "-o", output, "--size", "8x8", "--spp", "1"}, more);
 }
 
 }  // namespace
@@ -61,9 +59,7 @@ TEST_CASE("names in files do not speak to the terminal") {
                   "meshes":[{"primitives":[{"attributes":{"POSITION":0},"material":0}]}],
                   "nodes":[{"mesh":0},{"camera":0,"name":"\u009b2J"}],"scenes":[{"nodes":[0,1]}],"scene":0})");
     for (const Arguments& more : std::vector<Arguments>{{}, {"--json"}}) {
-        Arguments arguments{"info", folder / "e.gltf"};
-        arguments.insert(arguments.end(), more.begin(), more.end());
-        const ProgramResult result = run_program(arguments);
+        const ProgramResult result = run_program(joined({"info", folder / "e.gltf"}, more));
         CAPTURE(result.out, result.err);
         REQUIRE(result.code == 0);
         CHECK_THAT(result.out, contains("OWNED"));
@@ -147,7 +143,7 @@ TEST_CASE("1: a full disk leaves the old file and nothing else") {
     CHECK((folder.names() == std::vector<std::string>{"x.pfm"}));
 
     std::filesystem::create_symlink("/dev/full", folder / "full.pfm");
-    const ProgramResult full = run_program(render("cornell", folder / "full.pfm"));
+    const ProgramResult full = run_program(render_tiny("cornell", folder / "full.pfm"));
     CHECK(full.code == 1);
     CHECK_THAT(full.err, contains("No space left"));
 }
@@ -170,19 +166,19 @@ TEST_CASE("2: usage") {
         {{"bench", "cornell"}, "needs a folder to write to"},
         {{"compare", "a.exr"}, "needs two pictures"},
         {{"report"}, "needs one folder"},
-        {render("cornell", folder / "x.png", {"--expsure", "1"}), "did you mean '--exposure'?"},
-        {render("cornell", folder / "x.png", {"--spp", "-1"}), "--spp: expected"},
-        {render("cornell", folder / "x.png", {"--view", "radiance-map"}), "precomputed or reinforcement"},
-        {render("cornell", folder / "x.png", {"--target-error", "0"}), "--target-error: expected"},
-        {render("cornell", folder / "x.png", {"--target-error", "0.1", "--view", "normal"}),
+        {render_tiny("cornell", folder / "x.png", {"--expsure", "1"}), "did you mean '--exposure'?"},
+        {render_tiny("cornell", folder / "x.png", {"--spp", "-1"}), "--spp: expected"},
+        {render_tiny("cornell", folder / "x.png", {"--view", "radiance-map"}), "precomputed or reinforcement"},
+        {render_tiny("cornell", folder / "x.png", {"--target-error", "0"}), "--target-error: expected"},
+        {render_tiny("cornell", folder / "x.png", {"--target-error", "0.1", "--view", "normal"}),
          "expected --view beauty"},
-        {render("cornell", folder / "x.png", {"--reference", folder / "r"}),
+        {render_tiny("cornell", folder / "x.png", {"--reference", folder / "r"}),
          "unknown option '--reference' of 'render'"},
-        {render("cornell", folder / "x.jpg"), "expected .exr, .pfm or .png, got .jpg"},
-        {render("cornell", "jpg:-"), "-o: expected -, png:-, exr:- or pfm:-, got 'jpg:-'"},
-        {render("cornell", folder / "x.png", {"--crop", "4,4,5,4"}),
+        {render_tiny("cornell", folder / "x.jpg"), "expected .exr, .pfm or .png, got .jpg"},
+        {render_tiny("cornell", "jpg:-"), "-o: expected -, png:-, exr:- or pfm:-, got 'jpg:-'"},
+        {render_tiny("cornell", folder / "x.png", {"--crop", "4,4,5,4"}),
          "--crop: expected a window within the picture of 8x8 pixels, got 5x4 at 4,4"},
-        {render("cornell", folder / "x.png", {"-D", "spp=4"}), "cornell.json has no such knob: it has none"},
+        {render_tiny("cornell", folder / "x.png", {"-D", "spp=4"}), "cornell.json has no such knob: it has none"},
         {{"info", "cornell", "-D", "spp"}, "--define: expected NAME=VALUE"},
         {{"replay", "cornell", "--crop", "0,0,8,8"}, "unknown option '--crop' of 'replay'"},
         {{"render", "cornell"}, "-o FILE"},
@@ -223,23 +219,23 @@ TEST_CASE("3: input that is missing or invalid, with file and line") {
     };
     for (const Wrong& wrong : wrongs) {
         write_all(folder / wrong.file, wrong.content);
-        const ProgramResult result = run_program(render(folder / wrong.file, folder / "x.png"));
+        const ProgramResult result = run_program(render_tiny(folder / wrong.file, folder / "x.png"));
         CAPTURE(wrong.file, result.err);
         CHECK(result.code == 3);
         CHECK_THAT(result.err, contains(wrong.message));
         CHECK_FALSE(std::filesystem::exists(folder / "x.png"));
     }
-    const ProgramResult unknown = run_program(render("cornel", folder / "x.png"));
+    const ProgramResult unknown = run_program(render_tiny("cornel", folder / "x.png"));
     CHECK(unknown.code == 3);
     CHECK_THAT(unknown.err, contains("'cornell'"));
     CHECK(run_program({"info", folder / "missing.obj"}).code == 3);
     CHECK(run_program({"info", folder.path().string() + "/"}).code == 3);
-    CHECK(run_program(render("cornell", folder / "x.png", {"--camera", folder / "missing.json"})).code == 3);
+    CHECK(run_program(render_tiny("cornell", folder / "x.png", {"--camera", folder / "missing.json"})).code == 3);
 }
 
 TEST_CASE("4: a back end or a display that is not there") {
     const TempDir folder;
-    const ProgramResult cuda = run_program(render("cornell", folder / "x.png", {"--backend", "cuda"}));
+    const ProgramResult cuda = run_program(render_tiny("cornell", folder / "x.png", {"--backend", "cuda"}));
     if (cuda.code != 0) {
         CHECK(cuda.code == 4);
         CHECK_THAT(cuda.err, contains("--backend cuda: "));

@@ -2,16 +2,12 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/support/catch.hpp"
-#include "tests/support/program/refusal.h"
+#include "tests/support/program/outcome.h"
 
 namespace pl::test {
 namespace {
 
-ProgramResult info(const Arguments& more) {
-    Arguments arguments{"info"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return run_program(arguments);
-}
+ProgramResult info(const Arguments& more) { return run_program(joined({"info"}, more)); }
 
 std::string hash_of(const Arguments& more) {
     Arguments arguments = more;
@@ -50,9 +46,8 @@ TEST_CASE("the scene's hash changes with a knob, and not with its default") {
 TEST_CASE("a knob at its default changes no bit of a picture, another value changes it, and the picture says so") {
     const TempDir folder;
     const auto picture = [&](const Arguments& more) {
-        Arguments arguments{"render", "door", "-o", folder / "x.pfm", "--size", "24x24", "--spp", "4", "--nee", "on"};
-        arguments.insert(arguments.end(), more.begin(), more.end());
-        const ProgramResult result = run_program(arguments);
+        const ProgramResult result = run_program(
+            joined({"render", "door", "-o", folder / "x.pfm", "--size", "24x24", "--spp", "4", "--nee", "on"}, more));
         CAPTURE(result.err);
         REQUIRE(result.code == 0);
         return read_all(folder / "x.pfm");

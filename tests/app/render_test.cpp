@@ -17,9 +17,7 @@ namespace {
 using nlohmann::json;
 
 Arguments render(const std::string& output, const Arguments& more = {}) {
-    Arguments arguments{"render", "cornell", "-o", output, "--size", "24x16", "--spp", "3"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return arguments;
+    return joined({"render", "cornell", "-o", output, "--size", "24x16", "--spp", "3"}, more);
 }
 
 std::string rendered_bytes(const Arguments& more) {

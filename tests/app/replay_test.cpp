@@ -6,7 +6,7 @@
 
 #include "core/io/image.h"
 #include "tests/support/catch.hpp"
-#include "tests/support/program/refusal.h"
+#include "tests/support/program/outcome.h"
 
 namespace pl::test {
 namespace {
@@ -23,11 +23,9 @@ void write_path(const TempDir& folder, const std::string& more = "") {
 
 /// Three frames into the folder "out".
 Arguments replay(const TempDir& folder, const Arguments& more = {}) {
-    Arguments arguments{"replay",       "cornell", "--path", folder / "path.json", "-o", folder / "out", "--size",
-                        "16x12",        "--spp",   "3",      "--frames",           "3",  "--volumes",    "50",
-                        "--no-progress"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return arguments;
+    return joined({"replay", "cornell", "--path", folder / "path.json", "-o", folder / "out", "--size", "16x12",
+                   "--spp", "3", "--frames", "3", "--volumes", "50", "--no-progress"},
+                  more);
 }
 
 std::vector<std::string> names_in(const std::filesystem::path& folder) {

@@ -13,11 +13,10 @@ namespace {
 
 using nlohmann::json;
 
-ProgramResult inspect(const std::string& output, const Arguments& more) {
-    Arguments arguments{"inspect", "cornell", "-o",        output, "--size", "48x48", "--pixel",   "24,36",
-                        "--spp",   "20",      "--volumes", "60",   "--bins", "64",    "--threads", "1"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return run_program(arguments);
+ProgramResult inspect_pixel(const std::string& output, const Arguments& more) {
+    return run_program(joined({"inspect", "cornell", "-o", output, "--size", "48x48", "--pixel", "24,36", "--spp",
+                               "20", "--volumes", "60", "--bins", "64", "--threads", "1"},
+                              more));
 }
 
 std::size_t pixels_that_differ(const ByteImage& a, const ByteImage& b) {
@@ -35,7 +34,7 @@ std::size_t pixels_that_differ(const ByteImage& a, const ByteImage& b) {
 
 TEST_CASE("the history of a volume has its figures at every key frame, and ends without a difference to the end") {
     const TempDir folder;
-    const ProgramResult result = inspect(folder / "h.json", {"--history", "--truth-samples", "64"});
+    const ProgramResult result = inspect_pixel(folder / "h.json", {"--history", "--truth-samples", "64"});
     CAPTURE(result.err);
     REQUIRE(result.code == 0);
     const json history = json::parse(read_all(folder / "h.json"));
@@ -55,7 +54,7 @@ TEST_CASE("the history of a volume has its figures at every key frame, and ends 
     // Learning comes nearer to the light: the intervals of first and last frame do not meet.
     CHECK(frames.front()["table_divergence"][1] > frames.back()["table_divergence"][2]);
 
-    const ProgramResult again = inspect(folder / "h.csv", {"--history", "--truth-samples", "64"});
+    const ProgramResult again = inspect_pixel(folder / "h.csv", {"--history", "--truth-samples", "64"});
     REQUIRE(again.code == 0);
     std::istringstream rows(read_all(folder / "h.csv"));
     std::string row;
@@ -69,8 +68,8 @@ TEST_CASE("the history of a volume has its figures at every key frame, and ends 
 
 TEST_CASE("keeping the history changes nothing that is learned") {
     const TempDir folder;
-    REQUIRE(inspect(folder / "h.json", {"--history", "--save-field", folder / "h.field"}).code == 0);
-    REQUIRE(inspect(folder / "x.json", {"--save-field", folder / "x.field"}).code == 0);
+    REQUIRE(inspect_pixel(folder / "h.json", {"--history", "--save-field", folder / "h.field"}).code == 0);
+    REQUIRE(inspect_pixel(folder / "x.json", {"--save-field", folder / "x.field"}).code == 0);
     CHECK(read_all(folder / "h.field") == read_all(folder / "x.field"));
 }
 
@@ -79,12 +78,12 @@ TEST_CASE("shapes are drawn over the scene, the same at every run") {
     std::vector<ByteImage> images;
     for (const std::string name : {"lobe", "dome", "flowers"}) {
         const std::string file = folder / (name + ".png");
-        const ProgramResult result = inspect(file, {"--drawn", name});
+        const ProgramResult result = inspect_pixel(file, {"--drawn", name});
         CAPTURE(result.err);
         REQUIRE(result.code == 0);
         images.push_back(read_png8(file));
         CHECK(images.back().width == 48);
-        REQUIRE(inspect(folder / "again.png", {"--drawn", name}).code == 0);
+        REQUIRE(inspect_pixel(folder / "again.png", {"--drawn", name}).code == 0);
         CHECK(read_png8(folder / "again.png").rgb == images.back().rgb);
     }
     CHECK(pixels_that_differ(images[0], images[1]) > 10);
@@ -93,9 +92,9 @@ TEST_CASE("shapes are drawn over the scene, the same at every run") {
 
 TEST_CASE("a shape is a picture, and no other one") {
     const TempDir folder;
-    CHECK(inspect(folder / "x.json", {"--drawn", "lobe"}).code == 2);
-    CHECK(inspect(folder / "x.png", {"--drawn", "lobe", "--history"}).code == 2);
-    const ProgramResult unknown = inspect(folder / "x.png", {"--drawn", "cone"});
+    CHECK(inspect_pixel(folder / "x.json", {"--drawn", "lobe"}).code == 2);
+    CHECK(inspect_pixel(folder / "x.png", {"--drawn", "lobe", "--history"}).code == 2);
+    const ProgramResult unknown = inspect_pixel(folder / "x.png", {"--drawn", "cone"});
     CHECK(unknown.code == 2);
     CHECK(unknown.err.find("expected disc, lobe, dome or flowers, got 'cone'") != std::string::npos);
     CHECK(folder.names().empty());

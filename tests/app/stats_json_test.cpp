@@ -12,11 +12,9 @@ using nlohmann::ordered_json;
 
 ordered_json stats_of(const Arguments& more) {
     const TempDir folder;
-    Arguments arguments{
-        "render", "cornell", "-o", folder / "x.pfm", "--stats", folder / "s.json", "--size", "20x12", "--spp",
-        "4",      "-t",      "2"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    const ProgramResult result = run_program(arguments);
+    const ProgramResult result = run_program(joined({"render", "cornell", "-o", folder / "x.pfm", "--stats",
+                                                     folder / "s.json", "--size", "20x12", "--spp", "4", "-t", "2"},
+                                                    more));
     CAPTURE(result.err);
     REQUIRE(result.code == 0);
     return ordered_json::parse(read_all(folder / "s.json"));

@@ -10,10 +10,8 @@ namespace {
 using nlohmann::json;
 
 Arguments why(const Arguments& more) {
-    Arguments arguments{"trace", "door",      "--pixel", "24,20",  "--why", "--size",
-                        "48x40", "--volumes", "60",      "--bins", "64"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return arguments;
+    return joined(
+        {"trace", "door", "--pixel", "24,20", "--why", "--size", "48x40", "--volumes", "60", "--bins", "64"}, more);
 }
 
 json noise(Arguments arguments) {

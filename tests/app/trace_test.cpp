@@ -10,19 +10,14 @@ namespace {
 
 using nlohmann::json;
 
-const Arguments kSmall{"--size", "48x40", "--volumes", "60", "--bins", "64"};
-
-Arguments with(Arguments arguments, const Arguments& more) {
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return arguments;
-}
+const Arguments kTracedPicture{"--size", "48x40", "--volumes", "60", "--bins", "64"};
 
 Arguments trace_of(const std::string& pixel, const std::string& sample, const Arguments& more) {
-    return with(with({"trace", "cornell", "--pixel", pixel, "--sample", sample}, kSmall), more);
+    return joined(joined({"trace", "cornell", "--pixel", pixel, "--sample", sample}, kTracedPicture), more);
 }
 
 json traced(const std::string& pixel, const std::string& sample, const Arguments& more) {
-    const ProgramResult result = run_program(with(trace_of(pixel, sample, more), {"--json"}));
+    const ProgramResult result = run_program(joined(trace_of(pixel, sample, more), {"--json"}));
     CAPTURE(result.err);
     REQUIRE(result.code == 0);
     const std::vector<std::string> lines = lines_of(result.out);
@@ -39,8 +34,8 @@ TEST_CASE("the contributions of a traced path add up to the pixel of a picture w
             CAPTURE(method, nee);
             const Arguments settings{"--method", method, "--nee", nee, "--seed", "7"};
             const std::string picture = folder / (method + nee + ".pfm");
-            const ProgramResult rendered =
-                run_program(with(with({"render", "cornell", "-o", picture, "--spp", "1"}, kSmall), settings));
+            const ProgramResult rendered = run_program(
+                joined(joined({"render", "cornell", "-o", picture, "--spp", "1"}, kTracedPicture), settings));
             CAPTURE(rendered.err);
             REQUIRE(rendered.code == 0);
             const LinearImage image = read_pfm(picture);
@@ -78,8 +73,8 @@ TEST_CASE("a traced path begins under its pixel and knows why it ends") {
 
 TEST_CASE("a later sample of a method that learns is guided by volumes, the same for any number of threads") {
     const Arguments settings{"--method", "reinforcement", "--guiding", "always"};
-    const json path = traced("24,8", "3", with(settings, {"-t", "1"}));
-    CHECK(traced("24,8", "3", with(settings, {"-t", "2"})) == path);
+    const json path = traced("24,8", "3", joined(settings, {"-t", "1"}));
+    CHECK(traced("24,8", "3", joined(settings, {"-t", "2"})) == path);
     CHECK(path["guided"] == true);
     CHECK(path["vertices"][0]["surface"]["volume"].is_number());
     CHECK(path["vertices"][0]["surface"]["bsdf_fraction"].get<double>() < 1.0);
@@ -90,7 +85,7 @@ TEST_CASE("of several samples each path is the same as alone, and the brightest 
     for (const std::string method : {"default", "reinforcement"}) {
         CAPTURE(method);
         const Arguments settings{"--method", method, "--nee", "on"};
-        const ProgramResult result = run_program(with(trace_of("24,20", "2-6", settings), {"--json"}));
+        const ProgramResult result = run_program(joined(trace_of("24,20", "2-6", settings), {"--json"}));
         CAPTURE(result.err);
         REQUIRE(result.code == 0);
         const std::vector<std::string> lines = lines_of(result.out);

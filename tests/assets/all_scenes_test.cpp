@@ -7,14 +7,13 @@
 #include "core/io/load_scene.h"
 #include "core/scene/scene_hash.h"
 #include "tests/support/catch.hpp"
+#include "tests/support/files/assets.h"
 #include "tests/support/scenes/mesh_properties.h"
 
 using namespace pl;
 using namespace pl::test;
 
 namespace {
-
-const std::filesystem::path kAssets = PL_SOURCE_DIR "/assets";
 
 bool is_lit(const SceneDescription& scene) {
     return scene.environment != glm::vec3(0.0f) || !scene.environment_map.texels.empty() ||

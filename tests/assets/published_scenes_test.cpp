@@ -12,7 +12,7 @@ using namespace pl::test;
 
 namespace {
 
-SceneDescription load(const std::string& name) {
+SceneDescription load_published(const std::string& name) {
     SceneDescription scene = load_scene(name, std::filesystem::path(PL_SOURCE_DIR) / "assets");
     CHECK(scene.warnings.empty());
     return scene;
@@ -68,7 +68,7 @@ bool is_corner(const Quad& quad, const glm::vec3& p) {
 }  // namespace
 
 TEST_CASE("Cornell: every published quad is there, with its material, facing the right way") {
-    const SceneDescription scene = load("cornell");
+    const SceneDescription scene = load_published("cornell");
     CHECK(scene.triangles.size() == 32);
     for (const Quad& quad : published_box()) {
         const glm::dvec3 expected = glm::cross(quad.corners[2] - quad.corners[0], quad.corners[3] - quad.corners[1]);
@@ -91,7 +91,7 @@ TEST_CASE("Cornell: every published quad is there, with its material, facing the
 }
 
 TEST_CASE("Cornell: materials and camera as published") {
-    const SceneDescription scene = load("cornell");
+    const SceneDescription scene = load_published("cornell");
     std::map<std::string, MaterialDescription> materials;
     for (const MaterialDescription& m : scene.materials) {
         materials[m.name] = m;
@@ -113,7 +113,7 @@ TEST_CASE("Cornell: materials and camera as published") {
 }
 
 TEST_CASE("Cornell: bodies share the vertices of their common edges") {
-    const SceneDescription scene = load("cornell");
+    const SceneDescription scene = load_published("cornell");
     const std::vector<Body> parts = bodies(scene);
     REQUIRE(parts.size() == 4);
     for (const auto& [from, to] : open_edges(parts[0])) {  // the box: open at its front only
@@ -135,7 +135,7 @@ TEST_CASE("Cornell: bodies share the vertices of their common edges") {
 }
 
 TEST_CASE("Furnace: one closed body, fronts inside, whose radiance is 1") {
-    const SceneDescription scene = load("furnace");
+    const SceneDescription scene = load_published("furnace");
     CHECK(scene.triangles.size() == 12);
     const std::vector<Body> parts = bodies(scene);
     REQUIRE(parts.size() == 1);
@@ -149,7 +149,7 @@ TEST_CASE("Furnace: one closed body, fronts inside, whose radiance is 1") {
 }
 
 TEST_CASE("Door: a closed room and a closed door, the lamp behind it") {
-    const SceneDescription scene = load("door");
+    const SceneDescription scene = load_published("door");
     CHECK(scene.triangles.size() == 36);
     const std::vector<Body> parts = bodies(scene);
     REQUIRE(parts.size() == 4);
@@ -184,7 +184,7 @@ TEST_CASE("Door: a closed room and a closed door, the lamp behind it") {
 }
 
 TEST_CASE("Door: it is ajar by 17.9 degrees, hangs free, and leaves everything inside the room") {
-    const SceneDescription scene = load("door");
+    const SceneDescription scene = load_published("door");
     const std::vector<Body> parts = bodies(scene);
     for (std::size_t part = 1; part < parts.size(); ++part) {
         for (const TriangleDescription& t : parts[part]) {

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cfenv>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <set>
 
@@ -11,6 +10,7 @@
 #include "core/kernel/inspect/heat_map.h"
 #include "tests/cpu/small_room.h"
 #include "tests/support/catch.hpp"
+#include "tests/support/same_bits.h"
 
 using namespace pl;
 using namespace pl::test;
@@ -34,11 +34,6 @@ std::vector<Vec3f> whole_pass(const Room& room, FilmSlot slot) {
     const auto backend = with_empty_film(room, slot);
     backend->run_pass(pass_of(room, slot));
     return backend->read_film(slot).mean;
-}
-
-template <class T, class Allocator>
-bool same_bits(const std::vector<T, Allocator>& a, const std::vector<T, Allocator>& b) {
-    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
 }
 
 }  // namespace

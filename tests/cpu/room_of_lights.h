@@ -8,7 +8,7 @@
 
 #include "core/kernel/shading/bsdf.h"
 #include "core/scene/pack_scene.h"
-#include "tests/cpu/same_bits.h"
+#include "tests/support/same_bits.h"
 #include "tests/support/scenes/shapes.h"
 
 namespace pl::test {

@@ -10,7 +10,6 @@
 #include <unistd.h>
 
 #include "core/base/error.h"
-#include "core/base/hash.h"
 #include "core/io/checkpoint_file.h"
 #include "core/io/field_file.h"
 #include "core/io/files.h"
@@ -21,6 +20,7 @@
 #include "core/io/obj_mesh.h"
 #include "core/io/texture_file.h"
 #include "core/scene/pack_scene.h"
+#include "tests/support/files/sealed_bytes.h"
 #include "tests/support/scenes/obj_difference.h"
 #if PL_FUZZ_SCRIPTS
 #include "tests/fuzz/play_script.h"
@@ -169,15 +169,15 @@ void run_ply(std::string_view bytes) {
 void run_field(std::string_view bytes) {
     const fs::path as_it_is = folder().write("f.field", bytes);
     read_or_refuse([&] { read_field(as_it_is); });
-    const fs::path sealed = folder().write("f.field", sealed_again(std::string(bytes)));
-    read_or_refuse([&] { read_field(sealed); });
+    const fs::path file = folder().write("f.field", sealed(std::string(bytes)));
+    read_or_refuse([&] { read_field(file); });
 }
 
 void run_checkpoint(std::string_view bytes) {
     const fs::path as_it_is = folder().write("c", bytes);
     read_or_refuse([&] { read_checkpoint(as_it_is); });
-    const fs::path sealed = folder().write("c", sealed_again(std::string(bytes)));
-    read_or_refuse([&] { read_checkpoint(sealed); });
+    const fs::path file = folder().write("c", sealed(std::string(bytes)));
+    read_or_refuse([&] { read_checkpoint(file); });
 }
 
 void run_image(std::string_view bytes) {
@@ -240,20 +240,6 @@ const FuzzEntry* find_fuzz_entry(std::string_view name) {
     for (const FuzzEntry& entry : kEntries)
         if (entry.name == name) return &entry;
     return nullptr;
-}
-
-std::string sealed_again(std::string bytes) {
-    constexpr std::size_t kSizeAt = 8 + 4;  // behind the magic word and the version
-    constexpr std::size_t kChecksumBytes = 8;
-    if (bytes.size() < kSizeAt + 8 + kChecksumBytes) return bytes;
-    const auto put = [&](std::size_t offset, std::uint64_t value) {
-        for (std::size_t i = 0; i < 8; ++i) bytes[offset + i] = static_cast<char>(value >> (8 * i) & 0xffu);
-    };
-    put(kSizeAt, bytes.size());
-    Fnv1a hash;
-    hash.add(std::string_view(bytes).substr(0, bytes.size() - kChecksumBytes));
-    put(bytes.size() - kChecksumBytes, hash.value());
-    return bytes;
 }
 
 }  // namespace pl::test

@@ -18,7 +18,4 @@ std::span<const FuzzEntry> fuzz_entries();
 /// Null if there is none of this name.
 const FuzzEntry* find_fuzz_entry(std::string_view name);
 
-/// For corpora: a field file or a checkpoint whose size and checksum are right, so that the checks behind them are reached.
-std::string sealed_again(std::string bytes);
-
 }  // namespace pl::test

@@ -1,6 +1,7 @@
 // Cameras at their limits: angles, places, lenses, pictures of odd shapes; and what half of a view shows.
 #include "tests/hard/hard_scenes.h"
 #include "tests/support/catch.hpp"
+#include "tests/support/numbers.h"
 
 using namespace pl;
 using namespace pl::test;
@@ -19,8 +20,6 @@ SceneDescription half_plane(float edge, float distance) {
     scene.camera = {.eye = Vec3f{0.0f}, .target = {0.0f, 0.0f, -1.0f}};
     return scene;
 }
-
-constexpr double kPrecisePi = 3.14159265358979323846;
 
 }  // namespace
 
@@ -112,7 +111,7 @@ TEST_CASE("The edge of a lamp out of focus falls off as a disc is covered", "[ha
             scene.camera.fov_deg = 1e-3f;
             scene.camera.aperture_radius = kAperture;
             scene.camera.focus_distance = kFocus;
-            const double expected = 0.5 - (cut * std::sqrt(1.0 - cut * cut) + std::asin(cut)) / kPrecisePi;
+            const double expected = 0.5 - (cut * std::sqrt(1.0 - cut * cut) + std::asin(cut)) / kHalfTurn;
             INFO("lamp at " << distance << ", cut " << cut);
             // A thousandth of a degree blurs the edge by 1e-5 of its distance.
             CHECK(pixels_mean(picture_of(scene, kEstimators[0], 96, 16, 1), {expected, 1e-3 * expected + 1e-4}, 0.1));

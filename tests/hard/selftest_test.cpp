@@ -3,7 +3,7 @@
 
 #include "tests/support/catch.hpp"
 #include "tests/support/margin.h"
-#include "tests/support/program/refusal.h"
+#include "tests/support/program/outcome.h"
 
 using namespace pl::test;
 using nlohmann::json;

@@ -5,7 +5,7 @@
 
 #include "core/io/image.h"
 #include "tests/support/catch.hpp"
-#include "tests/support/program/joined_arguments.h"
+#include "tests/support/program/run_program.h"
 
 namespace pl::test {
 namespace {

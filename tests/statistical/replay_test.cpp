@@ -60,8 +60,8 @@ static_assert(Method<ReplayedMethod>);
 /// Paths of a scene whose training samples give another radiance than the path; those cut for learning are left out.
 template <FeatureSet F>
 void check_replay(const std::string& name, bool next_event) {
-    constexpr std::uint32_t kSide = 32;
-    constexpr std::uint32_t kSamples = 4;
+    constexpr std::uint32_t kReplaySide = 32;
+    constexpr std::uint32_t kReplaySamples = 4;
     const SceneDescription description = shipped_scene(name);
     const HostScene scene = pack_scene(description);
     const SceneView view = scene.view();
@@ -74,13 +74,14 @@ void check_replay(const std::string& name, bool next_event) {
     ReplayedMethod method;
     method.field = field_view(shape, volumes, tables);
     method.learning = {LearningTarget::MonteCarlo, LearnedLight::Indirect};
-    const Camera camera = make_camera(description.camera, kSide, kSide);
+    const Camera camera = make_camera(description.camera, kReplaySide, kReplaySide);
     const PathSettings path{.seed = 1, .next_event = next_event ? 1u : 0u};
 
     double brightest = 0.0;
     int lit = 0;
-    for (std::uint32_t i = 0; i < kSide * kSide * kSamples; ++i) {
-        auto state = begin_path<F, ReplayedMethod>(camera, path, {kSide, kSide, i % kSamples}, i / kSamples);
+    for (std::uint32_t i = 0; i < kReplaySide * kReplaySide * kReplaySamples; ++i) {
+        auto state = begin_path<F, ReplayedMethod>(camera, path, {kReplaySide, kReplaySide, i % kReplaySamples},
+                                                   i / kReplaySamples);
         ReplayedMethod::Store store;
         PathCounters counters;
         trace_path<F>(PathContext<ReplayedMethod>{view, method, path}, BvhIntersector{view}, state, store, counters);

@@ -23,9 +23,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kWidth = 240;
-constexpr int kHeight = 180;
-constexpr int kSide = 8;
+constexpr int kPictureWidth = 240;
+constexpr int kPictureHeight = 180;
+constexpr int kVolumeSide = 8;
 
 const fs::path kFolder = fs::path(PL_SOURCE_DIR) / "tests" / "ui" / "pictures";
 const fs::path kFont = fs::path(PL_SOURCE_DIR) / "assets" / "fonts" / "roboto-medium-latin.ttf";
@@ -55,18 +55,18 @@ void check_golden(const ByteImage& image, const std::string& name) {
 
 /// A gray picture of the small scene.
 struct GrayFrame {
-    std::vector<std::uint32_t> gray = std::vector<std::uint32_t>(kWidth * kHeight, 0xff404448u);
+    std::vector<std::uint32_t> gray = std::vector<std::uint32_t>(kPictureWidth * kPictureHeight, 0xff404448u);
     PublishedFrame frame;
 
     GrayFrame() {
         frame.description = small_scene();
         frame.scene = std::make_shared<const HostScene>(pack_scene(*frame.description));
         frame.facts = facts_of(*frame.description);
-        frame.snapshot.width = kWidth;
-        frame.snapshot.height = kHeight;
+        frame.snapshot.width = kPictureWidth;
+        frame.snapshot.height = kPictureHeight;
         frame.snapshot.camera = frame.description->camera;
         frame.snapshot.camera.fov_deg = 16.0f;  // shapes are large in the picture
-        frame.picture = {.width = kWidth, .height = kHeight, .pixels = [this] { return gray.data(); }};
+        frame.picture = {.width = kPictureWidth, .height = kPictureHeight, .pixels = [this] { return gray.data(); }};
     }
     GrayFrame(const GrayFrame&) = delete;
     GrayFrame& operator=(const GrayFrame&) = delete;
@@ -74,8 +74,9 @@ struct GrayFrame {
     /// A point that the camera sees in this place of the picture, in [0, 1]^2, at this share of the distance to its target.
     Vec3f seen_at(Vec2f point, float share) const {
         const CameraDescription& camera = frame.snapshot.camera;
-        const Ray ray = generate_ray(make_camera(camera, kWidth, kHeight), point * Vec2f(kWidth, kHeight),
-                                     {static_cast<float>(kWidth), static_cast<float>(kHeight)});
+        const Ray ray = generate_ray(make_camera(camera, kPictureWidth, kPictureHeight),
+                                     point * Vec2f(kPictureWidth, kPictureHeight),
+                                     {static_cast<float>(kPictureWidth), static_cast<float>(kPictureHeight)});
         const float distance = glm::length(camera.target - camera.eye);
         return camera.eye + share * distance * glm::normalize(ray.direction);
     }
@@ -87,18 +88,18 @@ std::shared_ptr<const VolumeInspection> volume_at(Vec3f position, Vec3f normal, 
     volume->volume = static_cast<std::int32_t>(bright);
     volume->position = position;
     volume->normal = normal;
-    volume->side = kSide;
-    volume->radiance.assign(kSide * kSide, 4.0f);
+    volume->side = kVolumeSide;
+    volume->radiance.assign(kVolumeSide * kVolumeSide, 4.0f);
     for (std::size_t row = 0; row < 4; ++row)
         for (std::size_t column = 0; column < 4; ++column)
-            volume->radiance[(bright + row * kSide + column) % (kSide * kSide)] = 20.0f;
+            volume->radiance[(bright + row * kVolumeSide + column) % (kVolumeSide * kVolumeSide)] = 20.0f;
     float total = 0.0f;
     for (const float q : volume->radiance) total += q;
     for (const float q : volume->radiance) volume->probability.push_back(q / total);
-    const int points = kSide * kFinePoints;
+    const int points = kVolumeSide * kFinePoints;
     for (int i = 0; i < points * points; ++i) {
-        const int cell = (i / points / kFinePoints) * kSide + i % points / kFinePoints;
-        volume->density.push_back(volume->probability[static_cast<std::size_t>(cell)] * kSide * kSide);
+        const int cell = (i / points / kFinePoints) * kVolumeSide + i % points / kFinePoints;
+        volume->density.push_back(volume->probability[static_cast<std::size_t>(cell)] * kVolumeSide * kVolumeSide);
     }
     return volume;
 }

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/io/image.h"
-#include "tests/support/program/refusal.h"
+#include "tests/support/program/outcome.h"
 
 namespace pl::test {
 namespace {
@@ -16,17 +16,16 @@ using nlohmann::json;
 namespace fs = std::filesystem;
 
 Arguments bench(const std::string& folder, const Arguments& more = {}) {
-    Arguments arguments{"bench", "cornell", "-o", folder, "--size", "16x16", "--spp", "8", "--seeds", "2",
-                        "--reference-spp", "32", "--backend", "cpu", "--volumes", "40", "--bins", "16",
-                        // Pictures this small cost less to render than to measure.
-                        "--measure-share", "1000000"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return arguments;
+    return joined({"bench", "cornell", "-o", folder, "--size", "16x16", "--spp", "8", "--seeds", "2",
+                   "--reference-spp", "32", "--backend", "cpu", "--volumes", "40", "--bins", "16",
+                   // Pictures this small cost less to render than to measure.
+                   "--measure-share", "1000000"},
+                  more);
 }
 
 json results_in(const std::string& folder) { return json::parse(read_all(folder + "/results.json")); }
 
-void make(const std::string& folder, const Arguments& more = {}) {
+void make_bench(const std::string& folder, const Arguments& more = {}) {
     const ProgramResult result = run_program(bench(folder, more));
     CAPTURE(result.err);
     REQUIRE(result.code == 0);
@@ -57,7 +56,7 @@ std::string with_times(const TempDir& folder, double factor) {
 
 TEST_CASE("a bench leaves everything it knows") {
     const TempDir folder;
-    make(folder / "b");
+    make_bench(folder / "b");
     const json results = results_in(folder / "b");
     CHECK(results.at("schema") == "pathlight.bench/1");
     CHECK(results.at("complete") == true);
@@ -102,7 +101,7 @@ TEST_CASE("a bench leaves everything it knows") {
 
 TEST_CASE("a bench leaves out points that take too long to measure, and its clocks name the commit and the upload") {
     const TempDir folder;
-    make(folder / "b", {"--measure-share", "0", "--seeds", "5", "--spp", "16"});
+    make_bench(folder / "b", {"--measure-share", "0", "--seeds", "5", "--spp", "16"});
     const json results = results_in(folder / "b");
     REQUIRE(results.at("commits").size() == 1);
     CHECK_FALSE(results.at("commits").at(0).get<std::string>().empty());
@@ -121,8 +120,8 @@ TEST_CASE("a bench leaves out points that take too long to measure, and its cloc
 
 TEST_CASE("the errors of a bench do not depend on its order or its folder") {
     const TempDir folder;
-    make(folder / "b");
-    make(folder / "c", {"--method", "reinforcement,default", "-t", "1"});
+    make_bench(folder / "b");
+    make_bench(folder / "c", {"--method", "reinforcement,default", "-t", "1"});
     const auto all = errors_in(folder / "b");
     const auto some = errors_in(folder / "c");
     CHECK(some.size() == 4);
@@ -133,11 +132,11 @@ TEST_CASE("the errors of a bench do not depend on its order or its folder") {
 
 TEST_CASE("a bench goes on: nothing that was finished is done again or lost") {
     const TempDir folder;
-    make(folder / "b");
+    make_bench(folder / "b");
     std::map<std::string, std::string> before;
     for (const auto& entry : fs::directory_iterator(folder / "b/runs"))
         before[entry.path().filename()] = read_all(entry.path());
-    make(folder / "b", {"--seeds", "3"});
+    make_bench(folder / "b", {"--seeds", "3"});
     for (const auto& [name, text] : before)
         if (name.find("warm-up") == std::string::npos) CHECK(read_all(folder / ("b/runs/" + name)) == text);
     CHECK(errors_in(folder / "b").size() == 9);
@@ -160,7 +159,7 @@ TEST_CASE("130: an interrupted bench keeps its runs and goes on with the same co
     CHECK(kept >= 1);
     CHECK(results_in(folder / "b").at("complete") == false);
     const auto errors = errors_in(folder / "b");
-    make(folder / "b", {"--seeds", std::to_string(kept)});  // at least as many as the folder has of any method
+    make_bench(folder / "b", {"--seeds", std::to_string(kept)});  // at least as many as the folder has of any method
     CHECK(results_in(folder / "b").at("complete") == true);
     for (const auto& [run, error] : errors) CHECK(errors_in(folder / "b").at(run) == error);
 }
@@ -206,7 +205,7 @@ TEST_CASE("3: a bench refuses references of other light") {
     const TempDir folder;
     const Arguments own{"--reference", folder / "refs", "--method", "default"};
     REQUIRE(run_program({"reference", "cornell", "-o", folder / "refs", "--size", "16x16", "--spp", "32"}).code == 0);
-    make(folder / "b", own);
+    make_bench(folder / "b", own);
     check_refused(3, bench(folder / "c", {"--reference", folder / "refs", "--max-depth", "4"}), "differs in depth");
     check_refused(3, bench(folder / "c", {"--reference", folder / "none"}), "holds no reference");
     // The light's power has changed, the name has not.
@@ -226,7 +225,7 @@ TEST_CASE("3: a bench refuses references of other light") {
 TEST_CASE("5: the gate fails only when the whole interval is slower") {
     const TempDir folder;
     const Arguments five{"--seeds", "5", "--method", "default"};
-    make(folder / "b", five);
+    make_bench(folder / "b", five);
     const auto gated = [&](const std::string& base, const Arguments& more = {}) {
         Arguments arguments = bench(folder / "b", five);
         arguments.insert(arguments.end(), {"--gate", base});
@@ -247,7 +246,7 @@ TEST_CASE("5: the gate fails only when the whole interval is slower") {
 
 TEST_CASE("a bench compares representations as methods of their own") {
     const TempDir folder;
-    make(folder / "b", {"--method", "default,reinforcement", "--field", "table,neural", "--nee", "off"});
+    make_bench(folder / "b", {"--method", "default,reinforcement", "--field", "table,neural", "--nee", "off"});
     const json results = results_in(folder / "b");
     std::vector<std::string> methods;
     for (const json& row : results.at("summary")) methods.push_back(row.at("method"));
@@ -256,9 +255,9 @@ TEST_CASE("a bench compares representations as methods of their own") {
     const auto errors = errors_in(folder / "b");
     CHECK(errors.at({"reinforcement-table", 1}) != errors.at({"reinforcement-neural", 1}));
     // One representation, and the table without any.
-    make(folder / "c", {"--method", "reinforcement", "--field", "neural", "--nee", "off"});
+    make_bench(folder / "c", {"--method", "reinforcement", "--field", "neural", "--nee", "off"});
     CHECK(errors_in(folder / "c").at({"reinforcement", 1}) == errors.at({"reinforcement-neural", 1}));
-    make(folder / "d", {"--method", "reinforcement", "--nee", "off"});
+    make_bench(folder / "d", {"--method", "reinforcement", "--nee", "off"});
     CHECK(errors_in(folder / "d").at({"reinforcement", 1}) == errors.at({"reinforcement-table", 1}));
 }
 

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/io/image.h"
-#include "tests/support/program/refusal.h"
+#include "tests/support/program/outcome.h"
 
 namespace pl::test {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "core/io/image.h"
 #include "core/measure/noise.h"
-#include "tests/support/program/refusal.h"
+#include "tests/support/program/outcome.h"
 
 namespace pl::test {
 namespace {
@@ -15,12 +15,10 @@ using nlohmann::json;
 namespace fs = std::filesystem;
 
 Arguments reference(const std::string& folder, const Arguments& more) {
-    Arguments arguments{"reference", "cornell", "-o", folder, "--size", "16x16"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return arguments;
+    return joined({"reference", "cornell", "-o", folder, "--size", "16x16"}, more);
 }
 
-void make(const std::string& folder, const Arguments& more) {
+void make_reference(const std::string& folder, const Arguments& more) {
     const ProgramResult result = run_program(reference(folder, more));
     CAPTURE(result.err);
     REQUIRE(result.code == 0);
@@ -60,7 +58,7 @@ std::string write_scene(const TempDir& folder, const std::string& name, const st
 
 TEST_CASE("a reference is two halves, a manifest, and nothing else") {
     const TempDir folder;
-    make(folder / "refs", {"--spp", "40"});
+    make_reference(folder / "refs", {"--spp", "40"});
     CHECK(std::distance(fs::directory_iterator(folder / "refs"), fs::directory_iterator{}) == 3);
     const json manifest = manifest_in(folder / "refs");
     CHECK(manifest.at("schema") == "pathlight.reference/1");
@@ -70,7 +68,7 @@ TEST_CASE("a reference is two halves, a manifest, and nothing else") {
 
     // Independent, and of the same picture: the noise estimated from their difference is about the error of their
     // mean against a good reference.
-    make(folder / "good", {"--spp", "2000"});
+    make_reference(folder / "good", {"--spp", "2000"});
     const LinearImage first = read_exr(file_ending(folder / "refs", "-1.exr"));
     const LinearImage second = read_exr(file_ending(folder / "refs", "-2.exr"));
     const LinearImage good = read_exr(file_ending(folder / "good", "-1.exr"));
@@ -84,16 +82,16 @@ TEST_CASE("a reference is two halves, a manifest, and nothing else") {
 
 TEST_CASE("a reference is gone on with") {
     const TempDir folder;
-    make(folder / "refs", {"--spp", "10"});
+    make_reference(folder / "refs", {"--spp", "10"});
     const std::string before = read_all(file_ending(folder / "refs", "-1.exr"));
-    make(folder / "refs", {"--spp", "10"});
+    make_reference(folder / "refs", {"--spp", "10"});
     CHECK(read_all(file_ending(folder / "refs", "-1.exr")) == before);
     // Another method and seed: the same converged picture.
-    make(folder / "refs", {"--spp", "30", "--method", "reinforcement", "--nee", "off", "--seed", "7"});
+    make_reference(folder / "refs", {"--spp", "30", "--method", "reinforcement", "--nee", "off", "--seed", "7"});
     CHECK((samples_in(folder / "refs") == std::vector<std::uint32_t>{30, 30}));
     CHECK(manifest_in(folder / "refs").at("halves").at(0).at("parts") == 2);
     // Fewer samples than there are: the halves stay unchanged.
-    make(folder / "refs", {"--spp", "5"});
+    make_reference(folder / "refs", {"--spp", "5"});
     CHECK((samples_in(folder / "refs") == std::vector<std::uint32_t>{30, 30}));
 }
 
@@ -109,14 +107,14 @@ TEST_CASE("130: an interrupted reference keeps what it has, and goes on") {
     CHECK(manifest_in(folder / "refs").at("complete") == false);
     const std::uint32_t kept = std::max(samples_in(folder / "refs")[0], samples_in(folder / "refs")[1]);
     CHECK(kept > 0);
-    make(folder / "refs", {"--spp", std::to_string(kept)});
+    make_reference(folder / "refs", {"--spp", std::to_string(kept)});
     CHECK((samples_in(folder / "refs") == std::vector<std::uint32_t>{kept, kept}));
     CHECK(manifest_in(folder / "refs").at("complete") == true);
 }
 
 TEST_CASE("a time limit ends a reference with samples in both halves") {
     const TempDir folder;
-    make(folder / "refs", {"--time-limit", "0.1"});
+    make_reference(folder / "refs", {"--time-limit", "0.1"});
     for (const std::uint32_t spp : samples_in(folder / "refs")) CHECK(spp > 0);
 }
 
@@ -156,8 +154,8 @@ TEST_CASE("a picture is scored against its own reference, found by what it shows
 
 TEST_CASE("3: references that were tampered with are refused") {
     const TempDir folder;
-    make(folder / "refs", {"--spp", "2"});
-    make(folder / "other", {"--spp", "2", "--max-depth", "2"});
+    make_reference(folder / "refs", {"--spp", "2"});
+    make_reference(folder / "other", {"--spp", "2", "--max-depth", "2"});
     // Another picture's half under this one's name.
     fs::copy_file(file_ending(folder / "other", "-1.exr"), file_ending(folder / "refs", "-1.exr"),
                   fs::copy_options::overwrite_existing);

@@ -83,8 +83,8 @@ TEST_CASE("the gain is the ratio of variances times seconds") {
     CHECK_THAT(gain->samples.value, WithinRel(0.25, 0.13));
     CHECK_THAT(gain->cost.value, WithinRel(3.0, 1.0e-9));
     CHECK_THAT(gain->net.value, WithinRel(0.75, 0.13));
-    CHECK(verdict_of(gain->net) == Verdict::Slower);
-    CHECK(verdict_of(pixel_gain(base, base)->net) == Verdict::NoDifference);
+    CHECK(verdict_of(gain->net) == pl::Verdict::Slower);
+    CHECK(verdict_of(pixel_gain(base, base)->net) == pl::Verdict::NoDifference);
 }
 
 TEST_CASE("without variance there are neither shares nor a gain") {

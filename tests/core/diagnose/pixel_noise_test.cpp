@@ -15,7 +15,7 @@ using namespace pl::test;
 
 namespace {
 
-constexpr std::uint32_t kPixel = 20 * 61 + 30;
+constexpr std::uint32_t kNoisyPixel = 20 * 61 + 30;
 
 PixelNoise noise_of(const Session& session, std::uint32_t pixel, std::uint32_t paths) {
     PixelNoiseTracer tracer(pass_pair(session, slot_of(session)), pixel);
@@ -104,7 +104,7 @@ TEST_CASE("guidance has estimates of its own, with every path guided, and the sa
     const SceneDescription scene = shipped_scene("door");
     Session session = make_session(scene, small_settings(scene, {MethodId::Reinforcement, false}));
     render_passes(session, 24);
-    const PixelNoise noise = noise_of(session, kPixel, 4096);
+    const PixelNoise noise = noise_of(session, kNoisyPixel, 4096);
     REQUIRE(noise.guided);
     CHECK(noise.guided_method == MethodId::Reinforcement);
     CHECK(noise.plain.paths == 4096);
@@ -114,7 +114,7 @@ TEST_CASE("guidance has estimates of its own, with every path guided, and the sa
     CHECK(noise.plain.seconds_per_path > 0.0);
     REQUIRE(noise.gain);
     CHECK_THAT(noise.gain->net.value, WithinRel(noise.gain->samples.value * noise.gain->cost.value, 1.0e-9));
-    const PixelNoise again = noise_of(session, kPixel, 4096);
+    const PixelNoise again = noise_of(session, kNoisyPixel, 4096);
     CHECK(again.guided->variance.value == noise.guided->variance.value);
     CHECK(again.plain.mean.value == noise.plain.mean.value);
     CHECK(again.gain->samples.low == noise.gain->samples.low);
@@ -128,7 +128,7 @@ TEST_CASE("the noise needs a path in every group, and a stop ends it") {
     const SceneDescription scene = shipped_scene("cornell");
     Session session = make_session(scene, small_settings(scene, {MethodId::Default, false}));
     render_passes(session, 1);
-    PixelNoiseTracer tracer(pass_pair(session, slot_of(session)), kPixel);
+    PixelNoiseTracer tracer(pass_pair(session, slot_of(session)), kNoisyPixel);
     StopFlag stop{true};
     CHECK_FALSE(tracer.advance(&stop));
     CHECK(tracer.paths() == 0);

@@ -15,7 +15,7 @@ using namespace pl::test;
 
 namespace {
 
-constexpr std::uint32_t kPixel = 20 * 61 + 30;
+constexpr std::uint32_t kTracedPixel = 20 * 61 + 30;
 
 Session rendered(const SceneDescription& scene, Estimator estimator, std::uint32_t passes) {
     Session session = make_session(scene, small_settings(scene, estimator));
@@ -31,14 +31,14 @@ TEST_CASE("Pixel paths: the mean of all paths of a pixel is its value in the pic
     PassPair passes = pass_pair(session, slot_of(session));
     CHECK_FALSE(passes.shows_guided);
     CHECK_FALSE(passes.guided.has_value());  // nothing has been learned
-    const PixelPaths paths = trace_pixel(passes, {.pixel = kPixel, .count = 40});
+    const PixelPaths paths = trace_pixel(passes, {.pixel = kTracedPixel, .count = 40});
     REQUIRE(paths.plain.size() == 40);
     CHECK(paths.samples == 40);
     CHECK(paths.searched == 40);
     CHECK(paths.guided.empty());
     glm::dvec3 sum{0.0};
     for (const PathRecord& path : paths.plain) sum += glm::dvec3(path.radiance);
-    const Vec3f value = session.snapshot(slot_of(session)).pixels[kPixel];
+    const Vec3f value = session.snapshot(slot_of(session)).pixels[kTracedPixel];
     CHECK(glm::length(sum / 40.0 - glm::dvec3(value)) < 1.0e-6 * glm::length(glm::dvec3(value)));
     CHECK(luminance(value) > 0.0f);
 }
@@ -47,15 +47,15 @@ TEST_CASE("Pixel paths: the brightest of all passes come first, the newest are t
     const SceneDescription scene = shipped_scene("cornell");
     const Session session = rendered(scene, {MethodId::Default, true}, 50);
     PassPair passes = pass_pair(session, slot_of(session));
-    const PixelPaths all = trace_pixel(passes, {.pixel = kPixel, .count = 50});
-    const PixelPaths brightest = trace_pixel(passes, {.pixel = kPixel, .count = 7});
+    const PixelPaths all = trace_pixel(passes, {.pixel = kTracedPixel, .count = 50});
+    const PixelPaths brightest = trace_pixel(passes, {.pixel = kTracedPixel, .count = 7});
     CHECK(brightest.searched == 50);
     REQUIRE(brightest.passes.size() == 7);
     CHECK(std::ranges::equal(brightest.passes, std::span(all.passes).first(7)));
     CHECK(std::ranges::is_sorted(brightest.plain, std::ranges::greater{}, path_light));
     CHECK(path_light(all.plain.front()) > path_light(all.plain.back()));
 
-    const PixelPaths newest = trace_pixel(passes, {.pixel = kPixel, .count = 7, .choice = PassChoice::Newest});
+    const PixelPaths newest = trace_pixel(passes, {.pixel = kTracedPixel, .count = 7, .choice = PassChoice::Newest});
     CHECK(newest.searched == 7);
     std::vector<std::uint32_t> numbers = newest.passes;
     std::ranges::sort(numbers);
@@ -70,7 +70,7 @@ TEST_CASE("Pixel paths: a learner's picture has those of default beside them, by
     PassPair passes = pass_pair(learned, slot_of(learned));
     CHECK(passes.shows_guided);
     CHECK(passes.guided_method == MethodId::Reinforcement);
-    const PixelPathsRequest newest{.pixel = kPixel, .count = 12, .choice = PassChoice::Newest};
+    const PixelPathsRequest newest{.pixel = kTracedPixel, .count = 12, .choice = PassChoice::Newest};
     const PixelPaths paths = trace_pixel(passes, newest);
     REQUIRE(paths.plain.size() == 12);
     REQUIRE(paths.guided.size() == 12);
@@ -78,7 +78,7 @@ TEST_CASE("Pixel paths: a learner's picture has those of default beside them, by
     PassReplay alone = plain.pass_replay(slot_of(plain));
     bool differ = false;
     for (std::size_t i = 0; i < 12; ++i) {
-        const PathRecord path = record_path(alone, field_of(alone), kPixel, paths.passes[i]);
+        const PathRecord path = record_path(alone, field_of(alone), kTracedPixel, paths.passes[i]);
         CHECK(path.radiance == paths.plain[i].radiance);
         CHECK(path.vertices.size() == paths.plain[i].vertices.size());
         CHECK(paths.guided[i].vertices[0].position == path.vertices[0].position);
@@ -98,7 +98,7 @@ TEST_CASE("Pixel paths: a picture of default has the learner's paths by the same
     PassPair passes = pass_pair(session, slot_of(session));
     REQUIRE(passes.guided.has_value());
     CHECK_FALSE(passes.shows_guided);
-    const PixelPaths paths = trace_pixel(passes, {.pixel = kPixel, .count = 4});
+    const PixelPaths paths = trace_pixel(passes, {.pixel = kTracedPixel, .count = 4});
     // The picture has three passes; the fourth follows.
     CHECK(paths.samples == 3);
     REQUIRE(paths.guided.size() == 4);
@@ -115,7 +115,7 @@ TEST_CASE("Pixel paths: a raised stop flag ends the search, views without paths 
     Session session = rendered(scene, {MethodId::Default, false}, 2);
     PassPair passes = pass_pair(session, slot_of(session));
     const StopFlag stop{true};
-    const PixelPaths paths = trace_pixel(passes, {.pixel = kPixel}, &stop);
+    const PixelPaths paths = trace_pixel(passes, {.pixel = kTracedPixel}, &stop);
     CHECK(paths.searched == 0);
     CHECK(paths.plain.empty());
     CHECK_THROWS(pass_pair(session, {MethodId::Default, View::Normal}));

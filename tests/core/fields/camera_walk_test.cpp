@@ -35,12 +35,6 @@ SceneDescription ball_over_floor() {
 
 Camera camera_at(float x) { return {.eye = {x, 0, 4}, .right = {0.5f, 0, 0}, .up = {0, 0.5f, 0}}; }
 
-FieldSettings asking_for(int volumes) {
-    FieldSettings settings;
-    settings.volumes = volumes;
-    return settings;
-}
-
 /// Share of the points that no volume serves.
 double missed(const HostVolumes& volumes, const std::vector<SurfacePoint>& points) {
     const auto misses = std::ranges::count_if(points, [&](const SurfacePoint& point) {
@@ -63,8 +57,8 @@ TEST_CASE("Where sides outnumber volumes, volumes are placed where paths arrive"
     const Camera camera = camera_at(0.0f);
     const std::vector<SurfacePoint> reached = walk_from_camera(scene, camera_at(0.1f));
     REQUIRE(reached.size() > 8192);
-    const HostVolumes by_area = place_volumes(scene, asking_for(400));
-    const HostVolumes by_paths = place_volumes(scene, asking_for(400), &camera);
+    const HostVolumes by_area = place_volumes(scene, FieldSettings{.volumes = 400});
+    const HostVolumes by_paths = place_volumes(scene, FieldSettings{.volumes = 400}, &camera);
     CHECK(by_paths.sites.size() == 400);
     CHECK(by_paths.normals.size() == 400);
     CHECK(missed(by_area, reached) > 0.2);
@@ -77,7 +71,8 @@ TEST_CASE("With a volume for every side the camera changes no placement") {
     add_box(description, {-1, -1, -1}, {1, 1, 1}, true);
     const HostScene scene = pack_scene(description);
     const Camera camera = camera_at(0.0f);
-    CHECK(same_sites(place_volumes(scene, asking_for(100)), place_volumes(scene, asking_for(100), &camera)));
+    CHECK(same_sites(place_volumes(scene, FieldSettings{.volumes = 100}),
+                     place_volumes(scene, FieldSettings{.volumes = 100}, &camera)));
 }
 
 TEST_CASE("A camera before nothing leaves the placement by area with fewer volumes") {
@@ -86,20 +81,22 @@ TEST_CASE("A camera before nothing leaves the placement by area with fewer volum
     away.axis = away.center = {0, 0, 1};
     away.up = {0, 0.001f, 0};
     CHECK(walk_from_camera(scene, away).empty());
-    CHECK(same_sites(place_volumes(scene, asking_for(400), &away), place_volumes(scene, asking_for(200))));
+    CHECK(same_sites(place_volumes(scene, FieldSettings{.volumes = 400}, &away),
+                     place_volumes(scene, FieldSettings{.volumes = 200})));
 }
 
 TEST_CASE("Placements by paths are reproducible and scale with the scene") {
     SceneDescription description = ball_over_floor();
     Camera camera = camera_at(0.0f);
-    const HostVolumes first = place_volumes(pack_scene(description), asking_for(400), &camera);
+    const HostVolumes first = place_volumes(pack_scene(description), FieldSettings{.volumes = 400}, &camera);
     for (const int threads : {1, 3}) {
         INFO(threads << " threads");
-        CHECK(same_sites(first, place_volumes(pack_scene(description), asking_for(400), &camera, threads)));
+        CHECK(same_sites(first,
+                         place_volumes(pack_scene(description), FieldSettings{.volumes = 400}, &camera, threads)));
     }
     transform(description, false, 1024.0f, Vec3f{0.0f});
     camera.eye *= 1024.0f;
-    HostVolumes scaled = place_volumes(pack_scene(description), asking_for(400), &camera);
+    HostVolumes scaled = place_volumes(pack_scene(description), FieldSettings{.volumes = 400}, &camera);
     for (SurfacePoint& site : scaled.sites) site.position *= 1.0f / 1024.0f;
     CHECK(same_sites(first, scaled));
 }

@@ -14,12 +14,6 @@ using namespace pl::test;
 
 namespace {
 
-FieldSettings asking_for(int volumes) {
-    FieldSettings settings;
-    settings.volumes = volumes;
-    return settings;
-}
-
 /// A horizontal square with its front up.
 void add_sheet(SceneDescription& scene, float size, float y, std::uint32_t material) {
     const std::uint32_t a = add_vertex(scene, {-size, y, -size});
@@ -53,7 +47,7 @@ TEST_CASE("Counts are the requested number in proportion to area") {
     double total = 0.0;
     for (const Surface& surface : surfaces.list) total += surface.area;
     for (const int asked : {12, 100, 1000, 5000}) {
-        const HostVolumes volumes = place_volumes(scene, asking_for(asked));
+        const HostVolumes volumes = place_volumes(scene, FieldSettings{.volumes = asked});
         REQUIRE(volumes.sites.size() == static_cast<std::size_t>(asked));
         CHECK(volumes.normals.size() == volumes.sites.size());
         CHECK(volumes.kd_nodes.size() == volumes.sites.size());
@@ -82,12 +76,12 @@ TEST_CASE("Tiny surfaces get one volume each if there are enough") {
     const HostScene scene = pack_scene(description);
     const Surfaces surfaces = find_surfaces(scene);
     REQUIRE(surfaces.list.size() == 3001);
-    const HostVolumes enough = place_volumes(scene, asking_for(4000));
+    const HostVolumes enough = place_volumes(scene, FieldSettings{.volumes = 4000});
     CHECK(enough.sites.size() == 4000);
     const std::vector<SideCount> counts = count_sides(scene, surfaces, enough);
     CHECK(counts[0].front == 1000);
     CHECK(std::all_of(counts.begin() + 1, counts.end(), [](const SideCount& c) { return c.front == 1; }));
-    const HostVolumes few = place_volumes(scene, asking_for(500));
+    const HostVolumes few = place_volumes(scene, FieldSettings{.volumes = 500});
     CHECK(few.sites.size() == 500);
     CHECK(count_sides(scene, surfaces, few)[0].front >= 499);
 }
@@ -100,7 +94,7 @@ TEST_CASE("Every point is within three mean spacings of a volume that serves it"
     double total = 0.0;
     for (const Surface& surface : surfaces.list) total += surface.area;
     for (const int asked : {100, 1000}) {
-        const HostVolumes volumes = place_volumes(scene, asking_for(asked));
+        const HostVolumes volumes = place_volumes(scene, FieldSettings{.volumes = asked});
         const double spacing = std::sqrt(total / asked);
         Uniforms random(2);
         for (int i = 0; i < 50000; ++i) {
@@ -120,7 +114,7 @@ TEST_CASE("Volumes cover a square evenly") {
     SceneDescription description;
     description.materials.push_back(gray());
     add_sheet(description, 1.0f, 0.0f, 0);
-    const HostVolumes volumes = place_volumes(pack_scene(description), asking_for(1600));
+    const HostVolumes volumes = place_volumes(pack_scene(description), FieldSettings{.volumes = 1600});
     std::vector<int> counts(16);
     for (const SurfacePoint& site : volumes.sites) {
         const int column = min_of(static_cast<int>((site.position.x + 1.0f) * 2.0f), 3);
@@ -133,7 +127,7 @@ TEST_CASE("Volumes cover a square evenly") {
 
 TEST_CASE("Volumes stand inside their triangles and face their side") {
     const HostScene scene = pack_scene(lit_room());
-    const HostVolumes volumes = place_volumes(scene, asking_for(1000));
+    const HostVolumes volumes = place_volumes(scene, FieldSettings{.volumes = 1000});
     std::set<std::array<float, 3>> places;
     for (std::size_t i = 0; i < volumes.sites.size(); ++i) {
         const SurfacePoint& site = volumes.sites[i];
@@ -156,7 +150,7 @@ TEST_CASE("Only the sides that light reaches get volumes") {
     add_sheet(description, 1.0f, -1.0f, 1);  // the light: its front looks up
     const HostScene below = pack_scene(description);
     const Surfaces surfaces = find_surfaces(below);
-    std::vector<SideCount> counts = count_sides(below, surfaces, place_volumes(below, asking_for(100)));
+    std::vector<SideCount> counts = count_sides(below, surfaces, place_volumes(below, FieldSettings{.volumes = 100}));
     REQUIRE(counts.size() == 2);
     CHECK(counts[0].front == 0);
     CHECK(counts[0].back == 50);
@@ -165,11 +159,13 @@ TEST_CASE("Only the sides that light reaches get volumes") {
 
     add_sheet(description, 1.0f, 1.0f, 1);  // a second light above, with its back to the sheet
     const HostScene one_sided = pack_scene(description);
-    counts = count_sides(one_sided, find_surfaces(one_sided), place_volumes(one_sided, asking_for(100)));
+    counts =
+        count_sides(one_sided, find_surfaces(one_sided), place_volumes(one_sided, FieldSettings{.volumes = 100}));
     CHECK(counts[0].front == 0);
     description.materials[1].two_sided_emission = true;
     const HostScene two_sided = pack_scene(description);
-    counts = count_sides(two_sided, find_surfaces(two_sided), place_volumes(two_sided, asking_for(100)));
+    counts =
+        count_sides(two_sided, find_surfaces(two_sided), place_volumes(two_sided, FieldSettings{.volumes = 100}));
     CHECK(counts[0].front > 0);
     CHECK(counts[0].back == counts[0].front);
 }
@@ -179,12 +175,13 @@ TEST_CASE("An environment lights both sides of a sheet and without any light it 
     description.materials.push_back(gray());
     add_sheet(description, 1.0f, 0.0f, 0);
     const HostScene dark = pack_scene(description);
-    std::vector<SideCount> counts = count_sides(dark, find_surfaces(dark), place_volumes(dark, asking_for(100)));
+    std::vector<SideCount> counts =
+        count_sides(dark, find_surfaces(dark), place_volumes(dark, FieldSettings{.volumes = 100}));
     CHECK(counts[0].front == 100);
     CHECK(counts[0].back == 0);
     description.environment = Vec3f{1.0f};
     const HostScene open = pack_scene(description);
-    counts = count_sides(open, find_surfaces(open), place_volumes(open, asking_for(100)));
+    counts = count_sides(open, find_surfaces(open), place_volumes(open, FieldSettings{.volumes = 100}));
     CHECK(counts[0].front == 50);
     CHECK(counts[0].back == 50);
 }
@@ -193,19 +190,19 @@ TEST_CASE("Nothing reflects and nothing is placed") {
     SceneDescription description;
     description.materials.push_back(gray(0.0f));
     add_sheet(description, 1.0f, 0.0f, 0);
-    CHECK(place_volumes(pack_scene(description), asking_for(100)).sites.empty());
-    CHECK(place_volumes(pack_scene(SceneDescription{}), asking_for(100)).sites.empty());
+    CHECK(place_volumes(pack_scene(description), FieldSettings{.volumes = 100}).sites.empty());
+    CHECK(place_volumes(pack_scene(SceneDescription{}), FieldSettings{.volumes = 100}).sites.empty());
 }
 
 TEST_CASE("Placement is the same every time and scales with the scene bit by bit") {
-    const HostVolumes first = place_volumes(pack_scene(lit_room()), asking_for(1000));
-    const HostVolumes second = place_volumes(pack_scene(lit_room()), asking_for(1000), nullptr, 3);
+    const HostVolumes first = place_volumes(pack_scene(lit_room()), FieldSettings{.volumes = 1000});
+    const HostVolumes second = place_volumes(pack_scene(lit_room()), FieldSettings{.volumes = 1000}, nullptr, 3);
     REQUIRE(second.sites.size() == first.sites.size());
     for (const int exponent : {0, -20, 20}) {
         const float scale = std::ldexp(1.0f, exponent);
         SceneDescription description = lit_room();
         for (glm::vec3& p : description.positions) p *= scale;
-        const HostVolumes scaled = place_volumes(pack_scene(description), asking_for(1000));
+        const HostVolumes scaled = place_volumes(pack_scene(description), FieldSettings{.volumes = 1000});
         REQUIRE(scaled.sites.size() == first.sites.size());
         bool same = true;
         for (std::size_t i = 0; i < first.sites.size(); ++i) {

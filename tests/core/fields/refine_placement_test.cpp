@@ -17,7 +17,7 @@ using namespace pl::test;
 namespace {
 
 constexpr int kSide = 4;
-constexpr std::size_t kCells = kSide * kSide;
+constexpr std::size_t kTableCells = kSide * kSide;
 
 /// A placement with tables in which all volumes have received light from one side, in so many samples for each cell.
 struct Learned {
@@ -29,7 +29,7 @@ struct Learned {
     HostTables tables;
 
     explicit Learned(const SceneDescription& description, int count, std::uint32_t visits = 10)
-        : scene(pack_scene(description)), settings{.volumes = count, .bins = kCells},
+        : scene(pack_scene(description)), settings{.volumes = count, .bins = kTableCells},
           surfaces(find_lit_surfaces(scene)) {
         shape = make_field_shape(scene, settings);
         volumes = place_volumes(scene, settings);
@@ -43,9 +43,9 @@ struct Learned {
 
     /// Light from the first rows, or from the last ones.
     void teach(std::size_t volume, std::uint32_t visits, bool other_way) {
-        for (std::size_t cell = 0; cell < kCells; ++cell) {
-            tables.radiance[volume * kCells + cell] = (cell < kCells / 2) != other_way ? 1.0f : 0.0f;
-            tables.visits[volume * kCells + cell] = visits;
+        for (std::size_t cell = 0; cell < kTableCells; ++cell) {
+            tables.radiance[volume * kTableCells + cell] = (cell < kTableCells / 2) != other_way ? 1.0f : 0.0f;
+            tables.visits[volume * kTableCells + cell] = visits;
         }
         update_volume(update_view(shape, tables), static_cast<std::uint32_t>(volume));
         tables.inverse_reach[volume] = 0.0f;  // as if all light came from far away
@@ -230,7 +230,7 @@ TEST_CASE("A child begins with its parent's table, and no training sample is los
     CHECK(sum(now.pending_light) == sum(old.pending_light));
     CHECK(sum(now.mixture_weight) == Approx(sum(old.mixture_weight)));
     CHECK(sum(now.reach_weight) == Approx(sum(old.reach_weight)));
-    CHECK(now.visits.size() == field.count() * kCells);
+    CHECK(now.visits.size() == field.count() * kTableCells);
     CHECK(now.row_cdf.size() == field.count() * kSide);
     for (std::size_t i = 0; i < parents.size(); ++i) {
         const std::size_t parent = parents[i];
@@ -243,9 +243,9 @@ TEST_CASE("A child begins with its parent's table, and no training sample is los
             CHECK(now.row_cdf[child * kSide + row] == old.row_cdf[parent * kSide + row]);
         std::uint32_t own = 0;
         std::uint32_t left = 0;
-        for (std::size_t cell = 0; cell < kCells; ++cell) {
-            const std::size_t of_child = child * kCells + cell;
-            const std::size_t of_parent = parent * kCells + cell;
+        for (std::size_t cell = 0; cell < kTableCells; ++cell) {
+            const std::size_t of_child = child * kTableCells + cell;
+            const std::size_t of_parent = parent * kTableCells + cell;
             CHECK(now.column_cdf[of_child] == old.column_cdf[of_parent]);
             CHECK(now.visits[of_child] + now.visits[of_parent] == old.visits[of_parent]);
             for (const std::size_t half : {of_child, of_parent})

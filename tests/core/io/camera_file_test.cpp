@@ -12,7 +12,7 @@ using pl::test::TemporaryFolder;
 
 namespace {
 
-std::string refused(const std::string& text) {
+std::string refused_cameras(const std::string& text) {
     const TemporaryFolder folder;
     const auto file = folder.write("path.json", text);
     return input_error([&] { load_cameras(file, {}); });
@@ -61,14 +61,15 @@ TEST_CASE("A camera without a member has that of the scene") {
 }
 
 TEST_CASE("Faults of a file of cameras are told with file and line") {
-    CHECK_THAT(refused("{\"cameras\": []}"), contains("expected \"pathlight.cameras/1\", got \"none\""));
-    CHECK_THAT(refused("{\n\"schema\": \"pathlight.scene/1\"}"), contains("path.json:2: 'schema': expected "));
-    CHECK_THAT(refused(with_cameras("[{\n\"eye\": [1, 2]}]")), contains("path.json:4: 'cameras/0/eye'"));
-    CHECK_THAT(refused(with_cameras("[{\n\"fov_deg\": 180}]")), contains("an angle between 0 and 180"));
-    CHECK_THAT(refused(with_cameras("[{\n\"eyes\": [1, 2, 3]}]")), contains("did you mean 'eye'?"));
-    CHECK_THAT(refused(with_cameras("[{\n\"eye\": [1, 2, 3], \"target\": [1, 2, 3]}]")),
+    CHECK_THAT(refused_cameras("{\"cameras\": []}"), contains("expected \"pathlight.cameras/1\", got \"none\""));
+    CHECK_THAT(refused_cameras("{\n\"schema\": \"pathlight.scene/1\"}"),
+               contains("path.json:2: 'schema': expected "));
+    CHECK_THAT(refused_cameras(with_cameras("[{\n\"eye\": [1, 2]}]")), contains("path.json:4: 'cameras/0/eye'"));
+    CHECK_THAT(refused_cameras(with_cameras("[{\n\"fov_deg\": 180}]")), contains("an angle between 0 and 180"));
+    CHECK_THAT(refused_cameras(with_cameras("[{\n\"eyes\": [1, 2, 3]}]")), contains("did you mean 'eye'?"));
+    CHECK_THAT(refused_cameras(with_cameras("[{\n\"eye\": [1, 2, 3], \"target\": [1, 2, 3]}]")),
                contains("got the same point for both"));
-    CHECK_THAT(refused(with_cameras("[{\n\"up\": [0, 0, 0]}]")), contains("expected a direction"));
-    CHECK_THAT(refused(with_cameras("[7]")), contains("expected an object"));
-    CHECK_THAT(refused(with_cameras("7")), contains("expected an array"));
+    CHECK_THAT(refused_cameras(with_cameras("[{\n\"up\": [0, 0, 0]}]")), contains("expected a direction"));
+    CHECK_THAT(refused_cameras(with_cameras("[7]")), contains("expected an object"));
+    CHECK_THAT(refused_cameras(with_cameras("7")), contains("expected an array"));
 }

@@ -1,11 +1,11 @@
 // Checkpoints in files: exact, and refused unless whole and of this version.
 #include "core/io/checkpoint_file.h"
 
-#include "core/base/hash.h"
 #include "core/io/files.h"
 #include "tests/support/catch.hpp"
 #include "tests/support/field/small_checkpoint.h"
 #include "tests/support/files/input_error.h"
+#include "tests/support/files/sealed_bytes.h"
 #include "tests/support/files/temporary_folder.h"
 
 using namespace pl;
@@ -16,21 +16,10 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::size_t kVersionOffset = 8;
-constexpr std::size_t kPrefixBytes = 8 + 4 + 8;
-constexpr std::size_t kChecksumBytes = 8;
 
 std::string written(const TemporaryFolder& folder, const Checkpoint& checkpoint) {
     write_checkpoint(folder.path() / "written", checkpoint);
     return read_file(folder.path() / "written");
-}
-
-/// With the checksum of the bytes before it.
-std::string sealed(std::string bytes) {
-    Fnv1a hash;
-    hash.add(std::string_view(bytes).substr(0, bytes.size() - kChecksumBytes));
-    for (std::size_t i = 0; i < kChecksumBytes; ++i)
-        bytes[bytes.size() - kChecksumBytes + i] = static_cast<char>(hash.value() >> (8 * i));
-    return bytes;
 }
 
 }  // namespace

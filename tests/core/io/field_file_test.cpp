@@ -4,18 +4,22 @@
 #include <cstddef>
 #include <cstring>
 
-#include "core/base/hash.h"
 #include "core/io/files.h"
 #include "tests/support/catch.hpp"
 #include "tests/support/field/small_field.h"
 #include "tests/support/files/input_error.h"
+#include "tests/support/files/sealed_bytes.h"
 #include "tests/support/files/temporary_folder.h"
+#include "tests/support/same_bits.h"
 
 using namespace pl;
 using pl::test::contains;
 using pl::test::error_message;
 using pl::test::input_error;
+using pl::test::kChecksumBytes;
+using pl::test::kPrefixBytes;
 using pl::test::loads_or_refuses;
+using pl::test::sealed;
 using pl::test::small_field;
 using pl::test::TemporaryFolder;
 
@@ -23,13 +27,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::size_t kPrefixBytes = 8 + 4 + 8;  // magic word, version, bytes
-constexpr std::size_t kChecksumBytes = 8;
-
-template <class T, class Allocator>
-bool same_bits(const std::vector<T, Allocator>& a, const std::vector<T, Allocator>& b) {
-    return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
-}
+using pl::test::same_bits;
 bool same_bits(const HostArray<SurfacePoint>& a, const HostArray<SurfacePoint>& b) {
     return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const SurfacePoint& p, const SurfacePoint& q) {
         constexpr std::size_t kWithoutPadding = offsetof(SurfacePoint, front);
@@ -51,20 +49,6 @@ void check_same(const LearnedField& a, const LearnedField& b) {
     const auto check = [](const auto& x, const auto& y) { CHECK(same_bits(x, y)); };
     zip(*a.volumes, *b.volumes, check);
     zip(tables_of(a.field), tables_of(b.field), check);
-}
-
-/// A right checksum behind changed bytes, and their right number in front, as a broken writer would write them.
-std::string sealed(std::string bytes) {
-    bytes.resize(bytes.size() - kChecksumBytes);
-    const auto put = [&](std::size_t offset, std::uint64_t value) {
-        for (std::size_t i = 0; i < 8; ++i) bytes[offset + i] = static_cast<char>(value >> (8 * i));
-    };
-    put(kPrefixBytes - 8, bytes.size() + kChecksumBytes);
-    Fnv1a hash;
-    hash.add(std::string_view(bytes));
-    bytes.resize(bytes.size() + kChecksumBytes);
-    put(bytes.size() - kChecksumBytes, hash.value());
-    return bytes;
 }
 
 std::string written(const TemporaryFolder& folder, const LearnedField& field) {

@@ -15,7 +15,7 @@ struct Decoded {
     std::vector<std::string> warnings;
 };
 
-Decoded decode(const std::string& bytes) {
+Decoded decode_picture(const std::string& bytes) {
     Decoded result;
     result.image = decode_hdr(bytes, {.path = "a.hdr", .warnings = &result.warnings});
     return result;
@@ -52,7 +52,7 @@ TEST_CASE("HDR files of all orientations are upright") {
         INFO(one.size);
         std::string bytes = kHeader + one.size + "\n";
         for (const int mantissa : one.texels) bytes += texel(mantissa);
-        const Decoded got = decode(bytes);
+        const Decoded got = decode_picture(bytes);
         CHECK(got.image.width == 3);
         CHECK(got.image.height == 2);
         CHECK(reds(got.image) == std::vector<int>{128, 129, 130, 131, 132, 133});
@@ -63,7 +63,7 @@ TEST_CASE("HDR files of all orientations are upright") {
 TEST_CASE("HDR files with the run lengths of old are read") {
     const auto run = [](int count) { return std::string("\x01\x01\x01", 3) + static_cast<char>(count); };
     const auto decoded = [](int width, const std::string& texels) {
-        return reds(decode(kHeader + "-Y 1 +X " + std::to_string(width) + "\n" + texels).image);
+        return reds(decode_picture(kHeader + "-Y 1 +X " + std::to_string(width) + "\n" + texels).image);
     };
     CHECK(decoded(4, texel(128) + run(2) + texel(200)) == std::vector<int>{128, 128, 128, 200});
     // Runs directly behind each other are the digits of one count, the lowest first.
@@ -87,12 +87,14 @@ TEST_CASE("Lines of HDR files have run lengths of either kind") {
     const std::string coded = std::string("\x02\x02\x00\x08", 4) + "\x88\x80\x88\x80\x88\x80\x88\x81";
     std::string plain;
     for (int i = 0; i < 8; ++i) plain += texel(130 + i);
-    CHECK(reds(decode(kHeader + "-Y 2 +X 8\n" + coded + plain).image) ==
+    CHECK(reds(decode_picture(kHeader + "-Y 2 +X 8\n" + coded + plain).image) ==
           std::vector<int>{128, 128, 128, 128, 128, 128, 128, 128, 130, 131, 132, 133, 134, 135, 136, 137});
 }
 
 TEST_CASE("Headers of HDR files as programs write them") {
-    const auto decoded = [](const std::string& header) { return decode(header + "-Y 1 +X 1\n" + texel(128)); };
+    const auto decoded = [](const std::string& header) {
+        return decode_picture(header + "-Y 1 +X 1\n" + texel(128));
+    };
     for (const char* header : {"#?RGBE\n\n", "#?RADIANCE\n\n", "#?AUTOPANO\r\nFORMAT=32-bit_rle_rgbe\r\n\r\n",
                                "#?RADIANCE\n# made by hand\nGAMMA=1\nEXPOSURE=          1.0000000000000\n\n"}) {
         INFO(header);
@@ -108,9 +110,10 @@ TEST_CASE("Headers of HDR files as programs write them") {
     CHECK_THAT(input_error([&] { decoded("#?RADIANCE\nFORMAT=32-bit_rle_xyze\n\n"); }),
                contains("expected the format 32-bit_rle_rgbe, got '32-bit_rle_xyze'"));
     for (const char* size : {"-Y 1 -Y 1\n", "-Y 1\n", "-Y one +X 1\n", "Y 1 X 1\n", ""})
-        CHECK_THAT(input_error([&] { decode(kHeader + size + texel(128)); }), contains("damaged: expected the size"));
-    CHECK_THAT(input_error([&] { decode(kHeader + "-Y 100000 +X 100000\n"); }), contains("100000x100000"));
-    CHECK_THAT(input_error([&] { decode(kHeader + "-Y 16000 +X 16000\nabcd"); }), contains("truncated"));
+        CHECK_THAT(input_error([&] { decode_picture(kHeader + size + texel(128)); }),
+                   contains("damaged: expected the size"));
+    CHECK_THAT(input_error([&] { decode_picture(kHeader + "-Y 100000 +X 100000\n"); }), contains("100000x100000"));
+    CHECK_THAT(input_error([&] { decode_picture(kHeader + "-Y 16000 +X 16000\nabcd"); }), contains("truncated"));
 }
 
 TEST_CASE("Coded lines of HDR files are whole, or the file is refused") {
@@ -119,18 +122,18 @@ TEST_CASE("Coded lines of HDR files are whole, or the file is refused") {
     };
     const std::string run("\x88\x80", 2);                                         // eight times the same
     const std::string singles = std::string("\x08", 1) + std::string(8, '\x80');  // eight, each by itself
-    const LinearImage image = decode(coded(run + singles + run + std::string("\x88\x81", 2))).image;
+    const LinearImage image = decode_picture(coded(run + singles + run + std::string("\x88\x81", 2))).image;
     REQUIRE(image.pixels.size() == 8);
     for (const glm::vec3& pixel : image.pixels) CHECK(pixel == glm::vec3(1.0f));
     const std::string nothing(1, '\0');
     const std::string too_long("\x89\x80", 2);
     for (const std::string& last : {nothing, too_long, std::string("\x88", 1), std::string(), singles.substr(0, 5)})
-        CHECK_THAT(input_error([&] { decode(coded(run + run + run + last)); }), contains("damaged"));
+        CHECK_THAT(input_error([&] { decode_picture(coded(run + run + run + last)); }), contains("damaged"));
 }
 
 TEST_CASE("HDR files of other primaries are converted") {
     const auto decoded = [](const std::string& line) {
-        return decode("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n" + line + "\n-Y 1 +X 1\n\x80\x40\x20\x81");
+        return decode_picture("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n" + line + "\n-Y 1 +X 1\n\x80\x40\x20\x81");
     };
     const glm::vec3 stored = decoded("").image.pixels[0];
     for (const char* usual : {"PRIMARIES=0.640 0.330 0.290 0.600 0.150 0.060 0.333 0.333\n",

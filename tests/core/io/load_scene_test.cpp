@@ -8,17 +8,19 @@
 #include "core/io/load_scene.h"
 #include "core/io/scene_materials.h"
 #include "core/scene/scene_hash.h"
+#include "tests/core/io/obj_text.h"
 #include "tests/support/catch.hpp"
 #include "tests/support/files/input_error.h"
 #include "tests/support/files/temporary_folder.h"
 
 using namespace pl;
 using pl::test::contains;
+using pl::test::kThreeVertices;
 using pl::test::TemporaryFolder;
 
 namespace {
 
-const std::string kTriangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+const std::string kTriangleFile = kThreeVertices + "f 1 2 3\n";
 
 std::vector<std::filesystem::path> scenes_in(const std::string& folder) {
     std::vector<std::filesystem::path> result;
@@ -47,7 +49,7 @@ TEST_CASE("Corpus: files to be refused") {
 TEST_CASE("A scene names the files that it was read from, and those that are missing") {
     const TemporaryFolder folder;
     folder.write("m.mtl", "newmtl wall\nKd 0.5 0.5 0.5\nKe 1 1 1\n");
-    const auto obj = folder.write("a.obj", "mtllib m.mtl\nmtllib none.mtl\nusemtl wall\n" + kTriangle);
+    const auto obj = folder.write("a.obj", "mtllib m.mtl\nmtllib none.mtl\nusemtl wall\n" + kTriangleFile);
     const auto json = folder.write("s.json", R"({"schema": "pathlight.scene/1", "obj": "a.obj"})");
     const std::vector<std::filesystem::path> expected{obj, folder.path() / "m.mtl", folder.path() / "none.mtl", json};
     CHECK(load_scene(json.string(), "").files == expected);
@@ -56,7 +58,7 @@ TEST_CASE("A scene names the files that it was read from, and those that are mis
 TEST_CASE("A file of materials replaces the values of the scene to the bit, and is checked") {
     const TemporaryFolder folder;
     folder.write("m.mtl", "newmtl wall\nKd 0.5 0.5 0.5\nKe 1 1 1\nnewmtl lamp\nKd 0 0 0\nKe 3 2 1\n");
-    const auto obj = folder.write("a.obj", "mtllib m.mtl\nusemtl wall\n" + kTriangle).string();
+    const auto obj = folder.write("a.obj", "mtllib m.mtl\nusemtl wall\n" + kTriangleFile).string();
     SceneDescription edited = load_scene(obj, "");
     edited.materials[0] = {.name = "wall",
                            .albedo = {0.1f, 0.2f, 1.0f / 3.0f},
@@ -86,7 +88,7 @@ TEST_CASE("A file of materials replaces the values of the scene to the bit, and 
 TEST_CASE("A file without light opens with the default light, and says so") {
     const TemporaryFolder folder;
     folder.write("m.mtl", "newmtl wall\nKd 0.5 0.5 0.5\nKe 0 0 0\nnewmtl lamp\nKe 1 1 1\n");
-    const auto path = folder.write("a.obj", "mtllib m.mtl\nusemtl wall\n" + kTriangle).string();
+    const auto path = folder.write("a.obj", "mtllib m.mtl\nusemtl wall\n" + kTriangleFile).string();
     const SceneDescription lit = load_scene(path, "");
     CHECK(lit.default_light);
     CHECK(lit.environment_map.texels.size() > 1000);
@@ -114,9 +116,9 @@ TEST_CASE("A file without light opens with the default light, and says so") {
 TEST_CASE("A scene with a light of any kind keeps every bit, whatever is chosen for those without") {
     const TemporaryFolder folder;
     folder.write("m.mtl", "newmtl wall\nKd 0.5 0.5 0.5\nnewmtl lamp\nKe 1 1 1\n");
-    folder.write("dark.obj", "mtllib m.mtl\nusemtl wall\n" + kTriangle);
+    folder.write("dark.obj", "mtllib m.mtl\nusemtl wall\n" + kTriangleFile);
     const std::string scene = R"({"schema": "pathlight.scene/1", "obj": "dark.obj", "environment": )";
-    for (const auto& path : {folder.write("lamp.obj", "mtllib m.mtl\nusemtl lamp\n" + kTriangle),
+    for (const auto& path : {folder.write("lamp.obj", "mtllib m.mtl\nusemtl lamp\n" + kTriangleFile),
                              folder.write("sky.json", scene + R"({"radiance": [0, 0, 1]}})"),
                              folder.write("sun.json", scene + R"({"sun": {"radiance": [1, 1, 1]}}})")}) {
         const SceneDescription on = load_scene(path.string(), "", {.default_light = true});

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/io/load_scene.h"
+#include "tests/core/io/obj_text.h"
 #include "tests/support/catch.hpp"
 #include "tests/support/files/input_error.h"
 #include "tests/support/files/temporary_folder.h"
@@ -11,6 +12,7 @@
 using namespace pl;
 using pl::test::contains;
 using pl::test::input_error;
+using pl::test::kThreeVertices;
 using pl::test::loads_or_refuses;
 using pl::test::TemporaryFolder;
 
@@ -71,8 +73,6 @@ Loaded load_with_warnings(const std::string& text) {
     for (const std::string& warning : scene.warnings) loaded.told += warning + "\n";
     return loaded;
 }
-
-const std::string kTriangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
 
 }  // namespace
 
@@ -144,19 +144,19 @@ TEST_CASE("A face with an index that is none is left out, or shown without norma
         Case{"1/99999999999/1", "texture point index 99999999999", true},
         Case{"1/1/1/1", "'1/1' is not an index of a normal", true});
     INFO(sample.corner);
-    const Loaded loaded = load_with_warnings("# three\n\n" + kTriangle + "vn 0 0 1\nf 1 2 3\nf 3 2 \\\n" +
+    const Loaded loaded = load_with_warnings("# three\n\n" + kThreeVertices + "vn 0 0 1\nf 1 2 3\nf 3 2 \\\n" +
                                              sample.corner + "\nf 1 2 3\n");
     CHECK_THAT(loaded.told,
                contains("bad.obj:8: ") && contains(sample.told) &&
                    contains(sample.is_shown ? ": this face is shown without its normals or texture points (1 in all)"
                                             : ": this face is left out (1 in all)"));
     CHECK(loaded.triangles == (sample.is_shown ? 3 : 2));
-    CHECK_THAT(load_text(kTriangle + "f 1 2 4\n"),
+    CHECK_THAT(load_text(kThreeVertices + "f 1 2 4\n"),
                contains("bad.obj: no faces") && contains("bad.obj:4: vertex index 4"));
 }
 
 TEST_CASE("The first index that points past the last vertex is named") {
-    const Loaded loaded = load_with_warnings("f 1 2 3\nf 1 2 9\nf 1 2 7\nf 3 2 4\n" + kTriangle);
+    const Loaded loaded = load_with_warnings("f 1 2 3\nf 1 2 9\nf 1 2 7\nf 3 2 4\n" + kThreeVertices);
     CHECK_THAT(loaded.told, contains("bad.obj:2: vertex index 9") && contains("this face is left out (3 in all)"));
     CHECK(loaded.triangles == 1);
 }
@@ -165,7 +165,7 @@ TEST_CASE("A corner may end with slashes without an index") {
     const std::string face =
         GENERATE(as<std::string>{}, "f 1// 2// 3//", "f 1/ 2/ 3/", "f 1/1/ 2/1/ 3/1/", "f 1//1 2// 3/1/");
     INFO(face);
-    const Loaded loaded = load_with_warnings(kTriangle + "vt 0 0\nvn 0 0 1\n" + face + "\n");
+    const Loaded loaded = load_with_warnings(kThreeVertices + "vt 0 0\nvn 0 0 1\n" + face + "\n");
     CHECK(loaded.triangles == 1);
     CHECK_THAT(loaded.told, !contains("left out"));
 }
@@ -176,7 +176,7 @@ TEST_CASE("Numbers that are none leave out their element and the faces that use 
                  "+-1", "--1", "1.2.3", "abc", "1e18000000000000000000000", "2e18", "1;", "'1'");
     INFO(word);
     const std::string keyword = GENERATE("v", "vn", "vt");
-    const Loaded loaded = load_with_warnings(kTriangle + "\r\n" + keyword + " 0 " + word +
+    const Loaded loaded = load_with_warnings(kThreeVertices + "\r\n" + keyword + " 0 " + word +
                                              " 0\nf 1 2 3\nf 1 4 2\nf 1//1 2//1 3//1\nf 1/1 2/1 3/1\n");
     CHECK_THAT(loaded.told, contains("bad.obj:5: '" + keyword + "'") && contains("got '" + word + "': this ") &&
                                 contains("is left out (1 in all)"));
@@ -209,7 +209,7 @@ TEST_CASE("Files whose faces have no area are refused") {
 
 TEST_CASE("Binary files are refused at their first control character") {
     using namespace std::string_literals;
-    CHECK_THAT(load_text(kTriangle + "f 1 2 3\n\0\n"s), contains("bad.obj:5: control character 0x00"));
+    CHECK_THAT(load_text(kThreeVertices + "f 1 2 3\n\0\n"s), contains("bad.obj:5: control character 0x00"));
     CHECK_THAT(load_text("\x7f"
                          "ELF\x02\x01"),
                contains("bad.obj:1: control character 0x7f"));
@@ -220,7 +220,7 @@ TEST_CASE("Large faces are triangulated, larger ones refused") {
     for (int i = 0; i < 65537; ++i) {
         face += " 1";
     }
-    CHECK_THAT(load_text(kTriangle + face), contains("bad.obj:4: a face with 65537 corners"));
+    CHECK_THAT(load_text(kThreeVertices + face), contains("bad.obj:4: a face with 65537 corners"));
 }
 
 TEST_CASE("Missing files and folders in place of files are named") {
@@ -246,7 +246,7 @@ TEST_CASE("Material libraries outside of the scene's folder are not read, but on
     const std::string library = GENERATE(as<std::string>{}, "../m.mtl", "/etc/passwd", "sub/../../m.mtl",
                                          "n.mtl ../m.mtl", "C:\\m.mtl", "\"..\\m.mtl\"");
     INFO(library);
-    const std::string text = "mtllib " + library + "\nusemtl m\n" + kTriangle + "f 1 2 3\n";
+    const std::string text = "mtllib " + library + "\nusemtl m\n" + kThreeVertices + "f 1 2 3\n";
     const auto load = [&](const std::string& name) {
         const SceneDescription scene = load_scene(folder.write(name, text).string(), folder.path());
         CHECK(scene.triangles.size() == 1);
@@ -267,7 +267,7 @@ TEST_CASE("A material library that is no text is told, and the scene shown") {
     std::filesystem::create_directories(folder.path() / "d.mtl");
     folder.write("b.mtl", "newmtl a\x01");
     const auto told = [&](const std::string& library) {
-        const std::string text = "mtllib " + library + "\n" + kTriangle + "f 1 2 3\n";
+        const std::string text = "mtllib " + library + "\n" + kThreeVertices + "f 1 2 3\n";
         return load_scene(folder.write("s.obj", text).string(), folder.path()).warnings.at(0);
     };
     CHECK_THAT(told("d.mtl"), contains("material file 'd.mtl' not found; 1 faces are shown in the default color"));

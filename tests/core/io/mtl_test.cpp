@@ -15,7 +15,7 @@ using pl::test::TemporaryFolder;
 
 namespace {
 
-SceneDescription load(const std::string& text) {
+SceneDescription load_mtl_text(const std::string& text) {
     const TemporaryFolder folder;
     SceneDescription scene;
     load_mtl(folder.write("m.mtl", text), scene);
@@ -23,13 +23,13 @@ SceneDescription load(const std::string& text) {
 }
 
 /// The only material of a file with these lines.
-MaterialDescription material(const std::string& lines) { return load("newmtl a\n" + lines).materials.at(0); }
+MaterialDescription material(const std::string& lines) { return load_mtl_text("newmtl a\n" + lines).materials.at(0); }
 
 }  // namespace
 
 TEST_CASE("Reflectance and emission, in the order of the file") {
-    const SceneDescription loaded = load("\xEF\xBB\xBF# colors\r\nnewmtl b\r\n\tKd 0.1 0.2 0.3\r\nKe 1e1 .5 "
-                                         "3\r\nnewmtl a\r\nKd 0.25 # gray\r\n");
+    const SceneDescription loaded = load_mtl_text("\xEF\xBB\xBF# colors\r\nnewmtl b\r\n\tKd 0.1 0.2 0.3\r\nKe 1e1 .5 "
+                                                  "3\r\nnewmtl a\r\nKd 0.25 # gray\r\n");
     REQUIRE(loaded.materials.size() == 2);
     CHECK(loaded.warnings.empty());
     CHECK(loaded.materials[0].name == "b");
@@ -40,14 +40,14 @@ TEST_CASE("Reflectance and emission, in the order of the file") {
 }
 
 TEST_CASE("Reflectance above 1 is clamped with a warning") {
-    const SceneDescription loaded = load("newmtl a\nKd 1.5 1 0.5\n");
+    const SceneDescription loaded = load_mtl_text("newmtl a\nKd 1.5 1 0.5\n");
     CHECK(loaded.materials[0].albedo == glm::vec3(1.0f, 1.0f, 0.5f));
     REQUIRE(loaded.warnings.size() == 1);
     CHECK_THAT(loaded.warnings[0], contains("m.mtl:2: reflectance above 1"));
 }
 
 TEST_CASE("Only the light that reflects nothing is black") {
-    const SceneDescription loaded = load("newmtl lamp\nKe 5 5 5\nnewmtl nothing\nNs 10\n");
+    const SceneDescription loaded = load_mtl_text("newmtl lamp\nKe 5 5 5\nnewmtl nothing\nNs 10\n");
     CHECK(loaded.materials[0].albedo == glm::vec3(0.0f));
     CHECK(loaded.materials[1].albedo == kDefaultAlbedo);
     REQUIRE(loaded.warnings.size() == 1);
@@ -56,7 +56,7 @@ TEST_CASE("Only the light that reflects nothing is black") {
 
 TEST_CASE("Of two materials with one name the first counts") {
     const SceneDescription loaded =
-        load("newmtl a\nKd 0.1 0.1 0.1\nnewmtl a\nKd 0.9 0.9 0.9\nPl_two_sided 1\nnewmtl b\nKd 0.5\n");
+        load_mtl_text("newmtl a\nKd 0.1 0.1 0.1\nnewmtl a\nKd 0.9 0.9 0.9\nPl_two_sided 1\nnewmtl b\nKd 0.5\n");
     REQUIRE(loaded.materials.size() == 2);
     CHECK(loaded.materials[0].albedo == glm::vec3(0.1f));
     CHECK_FALSE(loaded.materials[0].two_sided_emission);
@@ -67,11 +67,11 @@ TEST_CASE("Of two materials with one name the first counts") {
 
 TEST_CASE("Unsupported entries that change the picture are told once, the rest is silent") {
     const SceneDescription loaded =
-        load("newmtl a\nKd 0.5 0.5 0.5\ndisp c.png\nmap_Ks d.png\nmap_Ka e.png\nKa 1 1 1\n"
-             "newmtl b\nKd 0.5 0.5 0.5\ndisp f.png\n");
+        load_mtl_text("newmtl a\nKd 0.5 0.5 0.5\ndisp c.png\nmap_Ks d.png\nmap_Ka e.png\nKa 1 1 1\n"
+                      "newmtl b\nKd 0.5 0.5 0.5\ndisp f.png\n");
     REQUIRE(loaded.warnings.size() == 1);
     CHECK_THAT(loaded.warnings[0], contains("not supported: disp, map_Ks"));
-    CHECK(load("newmtl a\nKd 0.5 0.5 0.5\nKs 1 1 1\nNs 10\nd 1\nTr 0\nillum 2\n").warnings.empty());
+    CHECK(load_mtl_text("newmtl a\nKd 0.5 0.5 0.5\nKs 1 1 1\nNs 10\nd 1\nTr 0\nillum 2\n").warnings.empty());
 }
 
 TEST_CASE("Values that are wrong are left out with file and line") {
@@ -90,7 +90,7 @@ TEST_CASE("Values that are wrong are left out with file and line") {
                  Case{"Pl_ior nan", "within [1, 4]"}, Case{"Pl_rough 1", "unknown key 'Pl_rough'"},
                  Case{"Kt 1 1 1", "unknown key 'Kt'"}, Case{"Ps 0.5", "not supported: Ps"});
     INFO(sample.line);
-    const SceneDescription loaded = load("newmtl a\n\n" + sample.line + "\nnewmtl b\nKd 0.25\n");
+    const SceneDescription loaded = load_mtl_text("newmtl a\n\n" + sample.line + "\nnewmtl b\nKd 0.25\n");
     std::string all;
     for (const std::string& warning : loaded.warnings) all += warning + "\n";
     CHECK_THAT(all, contains("m.mtl:") && contains(sample.told));
@@ -98,15 +98,16 @@ TEST_CASE("Values that are wrong are left out with file and line") {
 }
 
 TEST_CASE("A value before any material is left out") {
-    const SceneDescription loaded = load("Kd 1 1 1\nNs 3\nnewmtl a\nKd 0.5\n");
+    const SceneDescription loaded = load_mtl_text("Kd 1 1 1\nNs 3\nnewmtl a\nKd 0.5\n");
     CHECK(loaded.materials.at(0).albedo == glm::vec3(0.5f));
     REQUIRE(loaded.warnings.size() == 1);
     CHECK_THAT(loaded.warnings[0], contains("m.mtl:1: 'Kd' before any 'newmtl': left out (2 in all)"));
 }
 
 TEST_CASE("Keys in letters of any size, and zeros of parts that are not there") {
-    const SceneDescription loaded = load("NEWMTL a\nKD 0.1 0.2 0.3\nke 1 1 1\nNI 1.4\nks 0.5\nNS 225\nILLUM 2\n"
-                                         "pl_Two_Sided 1\nPs 0\nPcr 0.03\naniso 0.0\nunheard 0 0 0\n");
+    const SceneDescription loaded =
+        load_mtl_text("NEWMTL a\nKD 0.1 0.2 0.3\nke 1 1 1\nNI 1.4\nks 0.5\nNS 225\nILLUM 2\n"
+                      "pl_Two_Sided 1\nPs 0\nPcr 0.03\naniso 0.0\nunheard 0 0 0\n");
     CHECK(loaded.warnings.empty());
     const MaterialDescription& material = loaded.materials.at(0);
     CHECK(material.kind == SurfaceKind::Plastic);
@@ -129,16 +130,17 @@ TEST_CASE("Tr is 1 - d, but d itself in files where it says 1 of a surface that 
                                  Case{"newmtl a\nKd 1\nTr 1\nNi 1.5\nnewmtl b\nKd 1\nTr 0.25\n", {1.0f, 0.75f}},
                                  Case{"newmtl a\nKd 1\nTr 0\n", {1.0f}}, Case{"newmtl a\nKd 1\nTr 0.25\n", {0.75f}});
     INFO(sample.text);
-    const SceneDescription loaded = load(sample.text);
+    const SceneDescription loaded = load_mtl_text(sample.text);
     for (std::size_t i = 0; i < sample.opacities.size(); ++i)
         CHECK(loaded.materials.at(i).opacity == sample.opacities[i]);
-    CHECK(load("newmtl a\nKd 1\nTr 1\nNi 1.5\n").materials.at(0).kind == SurfaceKind::Dielectric);
-    CHECK_THAT(load("newmtl a\nKd 1\nTr 1\n").warnings.at(0), contains("m.mtl:1: Tr 1 is opaque in this file"));
+    CHECK(load_mtl_text("newmtl a\nKd 1\nTr 1\nNi 1.5\n").materials.at(0).kind == SurfaceKind::Dielectric);
+    CHECK_THAT(load_mtl_text("newmtl a\nKd 1\nTr 1\n").warnings.at(0),
+               contains("m.mtl:1: Tr 1 is opaque in this file"));
 }
 
 TEST_CASE("Numbers of other programs that cannot be meant are told once and left out") {
     const SceneDescription loaded =
-        load("newmtl a\nKd 0.5\nKs 0.5 nan 1\nNs -3\nNi 0\nd 7\nillum 77\nPr x\nPm\nNi -1\n");
+        load_mtl_text("newmtl a\nKd 0.5\nKs 0.5 nan 1\nNs -3\nNi 0\nd 7\nillum 77\nPr x\nPm\nNi -1\n");
     CHECK(loaded.materials[0].kind == SurfaceKind::Diffuse);
     CHECK(loaded.warnings.size() == 7);
     for (const std::string& warning : loaded.warnings)
@@ -216,8 +218,8 @@ TEST_CASE("Transparency without refraction is a partial opacity") {
         CHECK(material(glass).kind == SurfaceKind::Dielectric);
         CHECK_FALSE(material(glass).may_have_holes());
     }
-    CHECK(load("newmtl a\nKd 0.5\nd 0.5\n").warnings.empty());
-    const SceneDescription invisible = load("newmtl a\nKd 0.5\nd 0\n");
+    CHECK(load_mtl_text("newmtl a\nKd 0.5\nd 0.5\n").warnings.empty());
+    const SceneDescription invisible = load_mtl_text("newmtl a\nKd 0.5\nd 0\n");
     REQUIRE(invisible.warnings.size() == 1);
     CHECK_THAT(invisible.warnings[0], contains("m.mtl:1: material 'a' is invisible"));
     // Implausible values are left out.

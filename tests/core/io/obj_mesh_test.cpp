@@ -11,18 +11,18 @@
 
 #include "core/base/error.h"
 #include "core/io/files.h"
+#include "tests/core/io/obj_text.h"
 #include "tests/support/catch.hpp"
 #include "tests/support/files/temporary_folder.h"
 #include "tests/support/scenes/bumpy_ball.h"
 #include "tests/support/scenes/obj_difference.h"
 
 using namespace pl;
+using pl::test::kThreeVertices;
 
 namespace {
 
 namespace fs = std::filesystem;
-
-const std::string kTriangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
 
 struct Reading {
     ObjMesh mesh{};
@@ -104,7 +104,7 @@ public:
             text += below(1000) < odds ? odd_line() : line();
             text += below(4) == 0 ? "\r\n" : "\n";
         }
-        text += kTriangle + "f 1 2 3";
+        text += kThreeVertices + "f 1 2 3";
         return below(2) == 0 ? text : text + "\n";
     }
 
@@ -294,14 +294,14 @@ TEST_CASE("A line means the same in all its forms") {
         Case{"f 1 2 3 #4", "f 1 2 3"}, Case{"usemtl a\rg b\r\r", "usemtl a\ng b\n"}, Case{"s 1 \\\n", "s 1\n"},
         Case{"# c \\", "#"}, Case{"usemtl \"a  b\" # c", "usemtl a  b"}, Case{"usemtl a\tb", "usemtl a b"});
     INFO(sample.odd);
-    const auto around = [](const std::string& line) { return kTriangle + "vt 0 0\n" + line + "\nf 1 2 3\n"; };
+    const auto around = [](const std::string& line) { return kThreeVertices + "vt 0 0\n" + line + "\nf 1 2 3\n"; };
     const Reading odd = check_same(around(sample.odd));
     CHECK(odd.mesh.warnings.empty());
     CHECK(test::obj_difference(odd.mesh, read(around(sample.plain)).mesh).empty());
 }
 
 TEST_CASE("A fault is told by the words of the face that has it") {
-    const Reading reading = check_same(kTriangle + "vn 0 0 1\nf 9 2 3//x\nf 1//y 2 3\nf 1 2 3//1\n");
+    const Reading reading = check_same(kThreeVertices + "vn 0 0 1\nf 9 2 3//x\nf 1//y 2 3\nf 1 2 3//1\n");
     CHECK(
         reading.mesh.warnings ==
         std::vector<std::string>{
@@ -311,7 +311,8 @@ TEST_CASE("A fault is told by the words of the face that has it") {
 }
 
 TEST_CASE("Elements that a later chunk leaves out are missing to the faces before") {
-    const Reading reading = check_same("f 1 2 3\nf 4 2 3\nf 1 2 3//1\nf 5 2 3\n" + kTriangle + "v 1 nan 0\nvn 0\n");
+    const Reading reading =
+        check_same("f 1 2 3\nf 4 2 3\nf 1 2 3//1\nf 5 2 3\n" + kThreeVertices + "v 1 nan 0\nvn 0\n");
     CHECK(reading.mesh.warnings ==
           std::vector<std::string>{
               "s.obj:8: 'v': expected finite numbers up to 1e18, got 'nan': this vertex is left out (1 in all)",
@@ -321,7 +322,7 @@ TEST_CASE("Elements that a later chunk leaves out are missing to the faces befor
 }
 
 TEST_CASE("The first control character of a text is told, in whichever chunk") {
-    const Reading reading = check_same(kTriangle + "f 1 2 3\n# a \\\nv 1 \\\n2 \x02 3\ng \x01\n");
+    const Reading reading = check_same(kThreeVertices + "f 1 2 3\n# a \\\nv 1 \\\n2 \x02 3\ng \x01\n");
     CHECK(reading.refusal == "s.obj:7: control character 0x02: this is not a text file");
 }
 
@@ -339,7 +340,7 @@ TEST_CASE("Short decimals are the float of the nearest double") {
         text += (i % 3 == 0 ? "\nv " : " ") + digits;
         expected.push_back(static_cast<float>(std::strtod(digits.c_str(), nullptr)));
     }
-    const ObjMesh mesh = read_obj_text(text + "\n" + kTriangle + "f -3 -2 -1\n", "s.obj", 2);
+    const ObjMesh mesh = read_obj_text(text + "\n" + kThreeVertices + "f -3 -2 -1\n", "s.obj", 2);
     std::size_t wrong = 0;
     for (std::size_t i = 0; i < expected.size(); ++i)
         wrong += std::bit_cast<std::uint32_t>(mesh.positions[i / 3][static_cast<int>(i % 3)]) !=
@@ -364,7 +365,7 @@ TEST_CASE("Coordinates are rounded correctly, whichever way a line takes") {
         simple += (i % 3 == 0 ? "\nv " : " ") + fmt::format("{:.17g}", value);
         expected.push_back(is_above ? high : low);
     }
-    simple += "\n" + kTriangle + "f -3 -2 -1\n";
+    simple += "\n" + kThreeVertices + "f -3 -2 -1\n";
     for (const std::string& text : {simple, in_odd_words(simple)}) {
         const ObjMesh mesh = read_obj_text(text, "s.obj", 2);
         std::size_t wrong = 0;

@@ -20,9 +20,10 @@ using pl::test::TemporaryFolder;
 
 namespace {
 
-constexpr const char* kMtl = "newmtl red\nKd 0.6 0.1 0.2\nnewmtl lamp\nKd 0.1 0.2 0.3\nKe 4 5 6\nPl_two_sided 1\n";
+constexpr const char* kRedAndLamp =
+    "newmtl red\nKd 0.6 0.1 0.2\nnewmtl lamp\nKd 0.1 0.2 0.3\nKe 4 5 6\nPl_two_sided 1\n";
 
-SceneDescription load(const std::string& obj, const std::string& mtl = kMtl) {
+SceneDescription load_obj_text(const std::string& obj, const std::string& mtl = kRedAndLamp) {
     const TemporaryFolder folder;
     folder.write("m.mtl", mtl);
     return load_obj(folder.write("s.obj", obj));
@@ -46,7 +47,7 @@ const std::string kQuad = "mtllib m.mtl\nv 0 0 0\nv 2 0 0\nv 2 1 0\nv 0 1 0\nuse
 }  // namespace
 
 TEST_CASE("A triangle with its material") {
-    const SceneDescription scene = load("mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0.5\nusemtl lamp\nf 1 2 3\n");
+    const SceneDescription scene = load_obj_text("mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0.5\nusemtl lamp\nf 1 2 3\n");
     REQUIRE(scene.triangles.size() == 1);
     CHECK(scene.positions == std::vector<glm::vec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0.5f}});
     CHECK(scene.triangles[0].vertex == glm::uvec3(0, 1, 2));
@@ -62,15 +63,15 @@ TEST_CASE("A triangle with its material") {
 }
 
 TEST_CASE("Polygons keep their area, their orientation and their vertices") {
-    const SceneDescription quad = load(kQuad);
+    const SceneDescription quad = load_obj_text(kQuad);
     CHECK(quad.triangles.size() == 2);
     CHECK(quad.positions.size() == 4);
     CHECK(test::area(quad) == Approx(2.0).epsilon(1e-12));
-    const SceneDescription pentagon = load("v 0 0 0\nv 2 0 0\nv 3 1 0\nv 1 3 0\nv -1 1 0\nf 1 2 3 4 5\n");
+    const SceneDescription pentagon = load_obj_text("v 0 0 0\nv 2 0 0\nv 3 1 0\nv 1 3 0\nv -1 1 0\nf 1 2 3 4 5\n");
     CHECK(pentagon.triangles.size() == 3);
     CHECK(test::area(pentagon) == Approx(7.0).epsilon(1e-12));
     const SceneDescription far_l =
-        load("v 10 10 1\nv 12 10 1\nv 12 11 1\nv 11 11 1\nv 11 12 1\nv 10 12 1\nf 1 2 3 4 5 6\n");
+        load_obj_text("v 10 10 1\nv 12 10 1\nv 12 11 1\nv 11 11 1\nv 11 12 1\nv 10 12 1\nf 1 2 3 4 5 6\n");
     CHECK(far_l.triangles.size() == 4);
     CHECK(test::area(far_l) == Approx(3.0).epsilon(1e-12));
     for (const TriangleDescription& t : far_l.triangles) {
@@ -80,7 +81,7 @@ TEST_CASE("Polygons keep their area, their orientation and their vertices") {
 
 TEST_CASE("Negative indices count back from the face") {
     const std::string vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
-    const SceneDescription scene = load(vertices + "f -3 -2 -1\n" + "v 5 0 0\n" + "f -1 -3 -2\n");
+    const SceneDescription scene = load_obj_text(vertices + "f -3 -2 -1\n" + "v 5 0 0\n" + "f -1 -3 -2\n");
     REQUIRE(scene.triangles.size() == 2);
     CHECK(scene.triangles[0].vertex == glm::uvec3(0, 1, 2));
     CHECK(scene.triangles[1].vertex == glm::uvec3(3, 1, 2));
@@ -88,15 +89,15 @@ TEST_CASE("Negative indices count back from the face") {
 
 TEST_CASE("Groups and objects are merged, vertices may follow their faces") {
     const SceneDescription scene =
-        load("o a\ng one two\ns 1\nf 1 2 3\ng\no b\ns off\nf 2 4 3\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\n");
+        load_obj_text("o a\ng one two\ns 1\nf 1 2 3\ng\no b\ns off\nf 2 4 3\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\n");
     CHECK(scene.triangles.size() == 2);
     CHECK(test::bodies(scene).size() == 1);
     CHECK(scene.warnings.size() == 1);  // no material
 }
 
 TEST_CASE("Smooth normals are kept per corner and made unit") {
-    const SceneDescription scene = load("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvn 0 0 2\nvn 0 3 4\nvt 0 0\n"
-                                        "f 1//1 2//2 3//1\nf 1/1/-1 3/1/2 4/1/1\nf 1/1 2/1 4/1\n");
+    const SceneDescription scene = load_obj_text("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvn 0 0 2\nvn 0 3 4\nvt 0 0\n"
+                                                 "f 1//1 2//2 3//1\nf 1/1/-1 3/1/2 4/1/1\nf 1/1 2/1 4/1\n");
     REQUIRE(scene.normals.size() == 2);
     CHECK(scene.normals[0] == glm::vec3(0, 0, 1));
     CHECK(scene.normals[1].y == Approx(0.6));
@@ -107,8 +108,9 @@ TEST_CASE("Smooth normals are kept per corner and made unit") {
 }
 
 TEST_CASE("Normals that are not usable are ignored with one counted warning") {
-    const SceneDescription scene = load("mtllib m.mtl\nusemtl red\nv 0 0 0\nv 1 0 0\nv 1 1 0\nvn 0 0 0\nvn 0 0 1\n"
-                                        "f 1//1 2//2 3//2\nf 1//2 2 3//2\nf 1//2 2//2 3//2\n");
+    const SceneDescription scene =
+        load_obj_text("mtllib m.mtl\nusemtl red\nv 0 0 0\nv 1 0 0\nv 1 1 0\nvn 0 0 0\nvn 0 0 1\n"
+                      "f 1//1 2//2 3//2\nf 1//2 2 3//2\nf 1//2 2//2 3//2\n");
     REQUIRE(scene.triangles.size() == 3);
     CHECK(scene.triangles[0].normal == glm::uvec3(TriangleDescription::kNoNormal));
     CHECK(scene.triangles[1].normal == glm::uvec3(TriangleDescription::kNoNormal));
@@ -118,7 +120,7 @@ TEST_CASE("Normals that are not usable are ignored with one counted warning") {
 }
 
 TEST_CASE("How lines are written does not matter") {
-    const SceneDescription plain = load(kQuad);
+    const SceneDescription plain = load_obj_text(kQuad);
     const auto rewritten = [](const std::string& end) {
         std::string text;
         for (const char c : kQuad) {
@@ -131,15 +133,15 @@ TEST_CASE("How lines are written does not matter") {
                       "# c\\\n\n   \n\t# d\n" + kQuad,
                       std::string("mtllib m.mtl # here\nv\t0 0  0 # zero\nv 2 0 \\\n 0\nv +2 1. .0e3\nv 0 "
                                   "1e0 1e-400\nusemtl red\n  f 1 2 \\\r\n3 4"));
-    const SceneDescription scene = load(variant);
+    const SceneDescription scene = load_obj_text(variant);
     CHECK(same_geometry(scene, plain));
     CHECK(scene.warnings.empty());
 }
 
 TEST_CASE("Names of materials may have blanks and any letters") {
     const SceneDescription scene =
-        load("mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl  my  red \xE4# 1 \nf 1 2 3\n",
-             "newmtl my  red \xE4# 1\nKd 1 0 0\n");
+        load_obj_text("mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl  my  red \xE4# 1 \nf 1 2 3\n",
+                      "newmtl my  red \xE4# 1\nKd 1 0 0\n");
     CHECK(scene.warnings.empty());
     CHECK(scene.materials[scene.triangles[0].material].name == "my  red \xE4# 1");
 }
@@ -160,15 +162,15 @@ TEST_CASE("Faces without a material get the default one and one warning") {
                       Case{"used before it is named", "mtllib m.mtl\n" + triangle + "f 1 2 3\nusemtl red\n",
                            "no material given; 1 faces"});
     INFO(sample.name);
-    const SceneDescription scene = load(sample.obj);
+    const SceneDescription scene = load_obj_text(sample.obj);
     REQUIRE(scene.warnings.size() == 1);
     CHECK_THAT(scene.warnings[0], contains(sample.told));
     CHECK(scene.materials[scene.triangles[0].material].albedo == kDefaultAlbedo);
 }
 
 TEST_CASE("Only faces without a material get the default one") {
-    const SceneDescription scene = load("mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nusemtl lamp\nf 1 "
-                                        "2 3\nusemtl other\nf 1 2 3\nusemtl red\nf 1 2 3\n");
+    const SceneDescription scene = load_obj_text("mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nusemtl lamp\nf 1 "
+                                                 "2 3\nusemtl other\nf 1 2 3\nusemtl red\nf 1 2 3\n");
     REQUIRE(scene.materials.size() == 3);
     CHECK(scene.triangles[0].material == 2);
     CHECK(scene.triangles[1].material == 1);
@@ -211,8 +213,9 @@ TEST_CASE("Names in quotes, and names of libraries as programs write them") {
 
 TEST_CASE(
     "A file without the normals and texture points that its faces name is shown without them, with one warning") {
-    const SceneDescription scene = load("mtllib m.mtl\nv -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nvn 0 0 1\nusemtl red\n"
-                                        "f 1/1/7 2/2/7 3/3/7 4/4/7\nf 1/1/1 2/2/1 3/3/1\ns 1\nf 1//1 2//1 3//9\n");
+    const SceneDescription scene =
+        load_obj_text("mtllib m.mtl\nv -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nvn 0 0 1\nusemtl red\n"
+                      "f 1/1/7 2/2/7 3/3/7 4/4/7\nf 1/1/1 2/2/1 3/3/1\ns 1\nf 1//1 2//1 3//9\n");
     REQUIRE(scene.triangles.size() == 4);
     CHECK(scene.triangles[0].normal == glm::uvec3(TriangleDescription::kNoNormal));
     CHECK(scene.triangles[0].uv == glm::uvec3(TriangleDescription::kNoUv));
@@ -241,8 +244,8 @@ TEST_CASE("The options -s and -o of a material's image move its texture coordina
 
 TEST_CASE("Entries that cannot be used are left out with one counted warning each") {
     const SceneDescription scene =
-        load("mtllib m.mtl\nusemtl red\nv 0 0 0 1\nv 1 0 0 0.5 0.5 0.5\nv 0 1 0 1\nv 2 0 0\n"
-             "f 1 2\nf 3\nf 1 2 4\nf 1 2 2 3\nf 1 1 1\ncurv 1 2\nf 1 2 3\nl 1 2\n");
+        load_obj_text("mtllib m.mtl\nusemtl red\nv 0 0 0 1\nv 1 0 0 0.5 0.5 0.5\nv 0 1 0 1\nv 2 0 0\n"
+                      "f 1 2\nf 3\nf 1 2 4\nf 1 2 2 3\nf 1 1 1\ncurv 1 2\nf 1 2 3\nl 1 2\n");
     CHECK(scene.triangles.size() == 2);  // the last face, and the quad with one corner twice
     CHECK(test::area(scene) == Approx(1.0));
     REQUIRE(scene.warnings.size() == 5);
@@ -260,7 +263,7 @@ TEST_CASE("A tall file keeps every face in place") {
         const std::string y = std::to_string(i);
         text += "v 0 " + y + " 0\nv 1 " + y + " 0\nf -4 -3 -1 -2\n";
     }
-    const SceneDescription scene = load(text);
+    const SceneDescription scene = load_obj_text(text);
     CHECK(scene.positions.size() == 2 * (kRows + 1));
     CHECK(scene.triangles.size() == 2 * kRows);
     CHECK(test::area(scene) == Approx(static_cast<double>(kRows)).epsilon(1e-12));
@@ -277,7 +280,7 @@ TEST_CASE("A face on one line of a megabyte") {
         text += "v " + std::to_string(x) + " " + std::to_string(y) + " 0\n";
         face += std::string(1000, ' ') + std::to_string(i + 1);
     }
-    const SceneDescription scene = load(text + face);
+    const SceneDescription scene = load_obj_text(text + face);
     CHECK(scene.warnings.empty());
     CHECK(scene.triangles.size() == kCorners - 2);
     CHECK(test::area(scene) == Approx(3.0 * (kCorners / 2 - 1)).epsilon(1e-9));
@@ -298,7 +301,7 @@ TEST_CASE("Faces of smoothing groups without normals get the mean normals of tho
     // A tent over the x axis; the third face is flat, the fourth has normals of its own.
     const std::string tent = "v 0 0 0\nv 4 0 0\nv 4 -1 -1\nv 0 -1 -1\nv 0 1 -1\nv 4 9 0\nvn 1 0 0\n";
     const SceneDescription scene =
-        load(tent + "s 1\nf 4 3 2 1\ns 7\nf 2 5 1\ns off\nf 1 2 6\ns 1\nf 1//1 2//1 6//1\n");
+        load_obj_text(tent + "s 1\nf 4 3 2 1\ns 7\nf 2 5 1\ns off\nf 1 2 6\ns 1\nf 1//1 2//1 6//1\n");
     REQUIRE(scene.triangles.size() == 5);
     const auto normal_at = [&](std::uint32_t vertex) {
         for (std::size_t i = 0; i < 3; ++i)
@@ -318,7 +321,7 @@ TEST_CASE("Faces of smoothing groups without normals get the mean normals of tho
     CHECK(scene.triangles[3].normal.x == TriangleDescription::kNoNormal);
     CHECK(scene.normals[scene.triangles[4].normal.x] == glm::vec3(1, 0, 0));
     for (const char* off : {"s off # flat\n", "s 0\n", "s\n", ""})
-        CHECK(load(tent + off + "f 1 2 6\n").triangles[0].normal.x == TriangleDescription::kNoNormal);
+        CHECK(load_obj_text(tent + off + "f 1 2 6\n").triangles[0].normal.x == TriangleDescription::kNoNormal);
 }
 
 TEST_CASE("The image of Kd: multiplied by Kd, with one warning for defaults of exporters, or alone") {
@@ -343,7 +346,7 @@ TEST_CASE("The image of Kd: multiplied by Kd, with one warning for defaults of e
 
 TEST_CASE("A material without a name is that of a usemtl without one") {
     const SceneDescription scene =
-        load("mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl\nf 1 2 3\n", "newmtl\nKd 0.1 0.2 0.3\n");
+        load_obj_text("mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl\nf 1 2 3\n", "newmtl\nKd 0.1 0.2 0.3\n");
     CHECK(scene.materials.at(scene.triangles.at(0).material).albedo == glm::vec3(0.1f, 0.2f, 0.3f));
     CHECK(scene.warnings.empty());
 }
@@ -354,7 +357,7 @@ TEST_CASE("Geometry far from the origin keeps its shape: it is moved in doubles,
         std::string text = "mtllib m.mtl\n";
         for (const glm::dvec2 corner : {glm::dvec2(0.37, 0.81), {0.57, 0.81}, {0.57, 10.81}, {0.37, 10.81}})
             text += fmt::format("v {}{:.3f} {:.3f} 30\n", sign, x + corner.x, y + corner.y);
-        return load(text + rest);
+        return load_obj_text(text + rest);
     };
     for (const std::string sign : {"", "+"}) {  // read as usual, and word by word
         const SceneDescription scene = house(391234.0, 5820123.0, sign);
@@ -385,10 +388,11 @@ TEST_CASE("Files in UTF-16 are read, of either order of bytes", "[hard]") {
     };
     const std::string text = "mtllib m.mtl\r\nv 0 0 0\r\nv 1 0 0\r\nv 0 1 0\r\nusemtl red\r\nf 1 2 3\r\n";
     for (const bool is_little : {true, false}) {
-        const SceneDescription scene = load(wide(text, is_little), wide(kMtl, !is_little));
+        const SceneDescription scene = load_obj_text(wide(text, is_little), wide(kRedAndLamp, !is_little));
         CHECK(scene.materials.at(scene.triangles.at(0).material).albedo == glm::vec3(0.6f, 0.1f, 0.2f));
     }
-    CHECK_THAT(test::input_error([&] { load(wide(text, true) + "x"); }),
+    CHECK_THAT(test::input_error([&] { load_obj_text(wide(text, true) + "x"); }),
                contains("UTF-16") && contains("even number"));
-    CHECK_THAT(test::input_error([&] { load(wide(text, true) + "\x01\xD8"); }), contains("half a character at byte"));
+    CHECK_THAT(test::input_error([&] { load_obj_text(wide(text, true) + "\x01\xD8"); }),
+               contains("half a character at byte"));
 }

@@ -17,7 +17,7 @@ using pl::test::TemporaryFolder;
 
 namespace {
 
-SceneDescription load(const std::string& members) {
+SceneDescription load_members(const std::string& members) {
     const TemporaryFolder folder;
     folder.write("m.mtl", "newmtl wall\nKd 0.5 0.5 0.5\nnewmtl la/mp~\nKe 1 1 1\n");
     folder.write("s.obj", "mtllib m.mtl\nv -1 0 0\nv 1 0 0\nv 0 2 0\nusemtl wall\nf 1 2 3\nusemtl la/mp~\nf 1 3 2\n");
@@ -25,14 +25,14 @@ SceneDescription load(const std::string& members) {
     return load_scene(folder.write("scene.json", text).string(), folder.path());
 }
 
-std::string refused(const std::string& members) {
-    return input_error([&] { load(members); });
+std::string refused_members(const std::string& members) {
+    return input_error([&] { load_members(members); });
 }
 
 }  // namespace
 
 TEST_CASE("A scene file with only the required members frames its geometry") {
-    const SceneDescription scene = load("");
+    const SceneDescription scene = load_members("");
     CHECK(scene.name == "scene");
     CHECK(scene.source.filename() == "scene.json");
     CHECK(scene.triangles.size() == 2);
@@ -44,18 +44,18 @@ TEST_CASE("A scene file with only the required members frames its geometry") {
 }
 
 TEST_CASE("Everything a scene file may say") {
-    const SceneDescription scene =
-        load(", \"name\": \"Test\", \"camera\": {\"eye\": [1, 2, 3], \"target\": [4, 5, 6.5], \"up\": [0, 0, "
-             "1], \"fov_deg\": 30,"
-             "\"aperture_radius\": 0.25, \"focus_distance\": 2.5, \"shift_x\": 0.5, \"shift_y\": -1}, "
-             "\"environment\": {\"radiance\": [0.5, 1, 2],"
-             "\"sun\": {\"direction\": [0, 2, 0], \"radiance\": [9, 8, 7], \"angle_deg\": 2}},"
-             "\"materials\": {\"wall\": {\"albedo\": [0.1, 0.2, 1], \"surface\": \"plastic\", \"roughness\": 0.5, "
-             "\"ior\": 1.25, \"specular\": [1, 0.5, 1], \"transmission\": [0, 0.5, 1]}, \"la/mp~\": {\"emission\": "
-             "[7, 8, 9], "
-             "\"two_sided_emission\": true}},"
-             "\"settings\": {\"spp\": 128, \"nee\": true, \"method\": \"reinforcement\", \"exposure\": -1.5, "
-             "\"size\": \"640x480\"}");
+    const SceneDescription scene = load_members(
+        ", \"name\": \"Test\", \"camera\": {\"eye\": [1, 2, 3], \"target\": [4, 5, 6.5], \"up\": [0, 0, "
+        "1], \"fov_deg\": 30,"
+        "\"aperture_radius\": 0.25, \"focus_distance\": 2.5, \"shift_x\": 0.5, \"shift_y\": -1}, "
+        "\"environment\": {\"radiance\": [0.5, 1, 2],"
+        "\"sun\": {\"direction\": [0, 2, 0], \"radiance\": [9, 8, 7], \"angle_deg\": 2}},"
+        "\"materials\": {\"wall\": {\"albedo\": [0.1, 0.2, 1], \"surface\": \"plastic\", \"roughness\": 0.5, "
+        "\"ior\": 1.25, \"specular\": [1, 0.5, 1], \"transmission\": [0, 0.5, 1]}, \"la/mp~\": {\"emission\": "
+        "[7, 8, 9], "
+        "\"two_sided_emission\": true}},"
+        "\"settings\": {\"spp\": 128, \"nee\": true, \"method\": \"reinforcement\", \"exposure\": -1.5, "
+        "\"size\": \"640x480\"}");
     CHECK(scene.name == "Test");
     CHECK(scene.camera.eye == glm::vec3(1, 2, 3));
     CHECK(scene.camera.target == glm::vec3(4, 5, 6.5f));
@@ -83,27 +83,27 @@ TEST_CASE("Everything a scene file may say") {
 }
 
 TEST_CASE("A clear sky is a map and a sun, around the axis that the file says") {
-    const SceneDescription scene =
-        load(", \"environment\": {\"sky\": {\"sun_direction\": [3, 4, 0], \"sun_scale\": 2, \"turbidity\": 5}}");
+    const SceneDescription scene = load_members(
+        ", \"environment\": {\"sky\": {\"sun_direction\": [3, 4, 0], \"sun_scale\": 2, \"turbidity\": 5}}");
     CHECK(scene.environment_map.texels.size() == 512 * 256);
     CHECK(scene.environment_map.texels[192 * 512] == glm::vec3(0.0f));
     CHECK(scene.sun.direction == glm::vec3(0.6f, 0.8f, 0.0f));
     CHECK(scene.sun.radiance.y > 2e4f);
-    const SceneDescription upright = load(", \"environment\": {\"sky\": {\"up\": [0, 0, 2], \"scale\": 0}}");
+    const SceneDescription upright = load_members(", \"environment\": {\"sky\": {\"up\": [0, 0, 2], \"scale\": 0}}");
     CHECK(upright.environment_map.texels.empty());
     CHECK(upright.sun.direction == glm::vec3(0, 0, 1));
 }
 
 TEST_CASE("A part of a camera completes the framing one") {
-    const SceneDescription wide = load(", \"camera\": {\"fov_deg\": 90}");
+    const SceneDescription wide = load_members(", \"camera\": {\"fov_deg\": 90}");
     CHECK(wide.camera.fov_deg == 90.0f);
     CHECK(wide.camera.target == glm::vec3(0, 1, 0));
-    CHECK(wide.camera.eye.z < load("").camera.eye.z);
-    CHECK(load(", \"camera\": {\"eye\": [0, 1, 50]}").camera.target == glm::vec3(0, 1, 0));
+    CHECK(wide.camera.eye.z < load_members("").camera.eye.z);
+    CHECK(load_members(", \"camera\": {\"eye\": [0, 1, 50]}").camera.target == glm::vec3(0, 1, 0));
 }
 
 TEST_CASE("An up vector along the view is replaced with a warning") {
-    const SceneDescription scene = load(", \"camera\": {\"eye\": [0, 9, 0], \"target\": [0, 0, 0]}");
+    const SceneDescription scene = load_members(", \"camera\": {\"eye\": [0, 9, 0], \"target\": [0, 0, 0]}");
     CHECK(scene.camera.up == glm::vec3(0, 0, -1));
     REQUIRE(scene.warnings.size() == 1);
     CHECK_THAT(scene.warnings[0], contains("up vector"));
@@ -141,16 +141,17 @@ TEST_CASE("Points of a scene file are in the coordinates of a mesh far from the 
 }
 
 TEST_CASE("Unknown keys are answered with the nearest known one, with file and line") {
-    CHECK_THAT(refused(",\n\n\"camra\": {}"), contains("scene.json:5: 'camra': unknown key, did you mean 'camera'?"));
-    CHECK_THAT(refused(",\n\"camera\": {\n\"fov\": 3}"),
+    CHECK_THAT(refused_members(",\n\n\"camra\": {}"),
+               contains("scene.json:5: 'camra': unknown key, did you mean 'camera'?"));
+    CHECK_THAT(refused_members(",\n\"camera\": {\n\"fov\": 3}"),
                contains("scene.json:5: 'camera/fov': unknown key, did you mean 'fov_deg'?"));
-    CHECK_THAT(refused(",\"environment\": {\n\"radience\": [1,1,1]}"),
+    CHECK_THAT(refused_members(",\"environment\": {\n\"radience\": [1,1,1]}"),
                contains("scene.json:4: ") && contains("did you mean 'radiance'?"));
-    CHECK_THAT(refused(",\"materials\": {\"wall\": {\n\"Albedo\": [1,1,1]}}"),
+    CHECK_THAT(refused_members(",\"materials\": {\"wall\": {\n\"Albedo\": [1,1,1]}}"),
                contains("scene.json:4: ") && contains("did you mean 'albedo'?"));
-    CHECK_THAT(refused(",\"materials\": {\n\"wal\": {}}"),
+    CHECK_THAT(refused_members(",\"materials\": {\n\"wal\": {}}"),
                contains("scene.json:4: ") && contains("did you mean 'wall'?"));
-    CHECK_THAT(refused(",\"settings\": {\n\n\"max_depth\": 3}"),
+    CHECK_THAT(refused_members(",\"settings\": {\n\n\"max_depth\": 3}"),
                contains("scene.json:5: ") && contains("did you mean 'max-depth'?"));
 }
 
@@ -216,7 +217,7 @@ TEST_CASE("Values of a wrong type or range are refused with file and line") {
         Case{"\"name\": \"\xff\"", "not valid JSON"}, Case{"\"camera\": {\"eye\": [NaN, 0, 0]}", "not valid JSON"},
         Case{"// comment", "not valid JSON"});
     INFO(sample.members);
-    CHECK_THAT(refused(",\n" + sample.members), contains("scene.json:4: ") && contains(sample.told));
+    CHECK_THAT(refused_members(",\n" + sample.members), contains("scene.json:4: ") && contains(sample.told));
 }
 
 TEST_CASE("The frame of a scene file is checked") {
@@ -305,7 +306,7 @@ TEST_CASE("Textures that a scene file names, and triangles without texture point
 
 TEST_CASE("The opacity of a material blends if it is partial, unless the file says otherwise") {
     const auto wall = [](const std::string& members) {
-        return load(", \"materials\": {\"wall\": {" + members + "}}").materials[0];
+        return load_members(", \"materials\": {\"wall\": {" + members + "}}").materials[0];
     };
     CHECK(wall("").opacity == 1.0f);
     CHECK(wall("").opacity_rule == OpacityRule::Threshold);
@@ -315,7 +316,7 @@ TEST_CASE("The opacity of a material blends if it is partial, unless the file sa
     CHECK(wall("\"opacity\": 0.25, \"opacity_rule\": \"threshold\"").opacity_rule == OpacityRule::Threshold);
     CHECK(wall("\"opacity_rule\": \"blend\"").opacity_rule == OpacityRule::Blend);
     const auto refused_wall = [](const std::string& members) {
-        return refused(", \"materials\": {\"wall\": {" + members + "}}");
+        return refused_members(", \"materials\": {\"wall\": {" + members + "}}");
     };
     CHECK_THAT(refused_wall("\"opacity\": 1.5"), contains("opacity") && contains("within [0, 1], got 1.5"));
     CHECK_THAT(refused_wall("\"opacity\": -0.5"), contains("within [0, 1], got -0.5"));

@@ -6,6 +6,7 @@
 #include "core/io/load_scene.h"
 #include "core/scene/scene_hash.h"
 #include "tests/support/catch.hpp"
+#include "tests/support/files/assets.h"
 #include "tests/support/files/input_error.h"
 #include "tests/support/files/temporary_folder.h"
 
@@ -13,21 +14,20 @@ using namespace pl;
 using pl::test::contains;
 using pl::test::error_message;
 using pl::test::input_error;
+using pl::test::kAssets;
 using pl::test::TemporaryFolder;
 
 namespace {
 
-const std::string kAssets = PL_SOURCE_DIR "/assets";
-
 /// Two triangles that share nothing, a third that shares a vertex with the second; only the first has normals.
-constexpr const char* kObj =
+constexpr const char* kLeafAndFrame =
     "mtllib m.mtl\nusemtl wall\nv 0 0 0\nv 2 0 0\nv 0 2 0\nvn 0 0 1\nvn 1 0 0\n"
     "g leaf\nf 1//1 2//1 3//1\nv 5 0 0\nv 6 0 0\nv 5 1 0\nv 7 7 7\ng frame\nf 4 5 6\no corner\nf 4 5 7\n";
 
-SceneDescription load(const std::string& knob, const ParameterTexts& asked = {}) {
+SceneDescription load_knob(const std::string& knob, const ParameterTexts& asked = {}) {
     const TemporaryFolder folder;
     folder.write("m.mtl", "newmtl wall\nKd 0.5 0.5 0.5\nnewmtl lamp\nKd 0.5 0.25 0.5\nKe 1 1 1\n");
-    folder.write("s.obj", kObj);
+    folder.write("s.obj", kLeafAndFrame);
     const std::string text = "{\"schema\": \"pathlight.scene/1\", \"obj\": \"s.obj\",\n\"knobs\": {\n" + knob + "}}";
     return load_scene(folder.write("scene.json", text).string(), folder.path(), {.parameters = asked});
 }
@@ -39,8 +39,8 @@ std::string knob_that(const std::string& does) {
            does + "}";
 }
 
-std::string refused(const std::string& does) {
-    return input_error([&] { load(knob_that(does)); });
+std::string refused_knob(const std::string& does) {
+    return input_error([&] { load_knob(knob_that(does)); });
 }
 
 bool near(const glm::vec3& a, const glm::vec3& b) { return glm::length(a - b) < 1e-6f; }
@@ -49,8 +49,8 @@ bool near(const glm::vec3& a, const glm::vec3& b) { return glm::length(a - b) < 
 
 TEST_CASE("A knob moves its groups along a direction, and nothing else") {
     const std::string knob = knob_that(R"("moves": [{"groups": ["leaf"], "by": [0, 0.5, -1]}])");
-    const SceneDescription rest = load(knob);
-    const SceneDescription moved = load(knob, {{"k", "3"}});
+    const SceneDescription rest = load_knob(knob);
+    const SceneDescription moved = load_knob(knob, {{"k", "3"}});
     for (std::size_t i = 0; i < 3; ++i) CHECK(moved.positions[i] == rest.positions[i] + glm::vec3(0, 1, -2));
     for (std::size_t i = 3; i < 7; ++i) CHECK(moved.positions[i] == rest.positions[i]);
     CHECK(moved.normals == rest.normals);
@@ -67,7 +67,7 @@ TEST_CASE("A knob moves its groups along a direction, and nothing else") {
 TEST_CASE("A knob turns its groups about an axis, with their normals") {
     const std::string knob =
         knob_that(R"("turns": [{"groups": ["leaf"], "about": [1, 0, 0], "axis": [0, 3, 0], "by_deg": 10}])");
-    const SceneDescription turned = load(knob, {{"k", "10"}});  // by 90 degrees
+    const SceneDescription turned = load_knob(knob, {{"k", "10"}});  // by 90 degrees
     CHECK(near(turned.positions[0], {1, 0, 1}));
     CHECK(near(turned.positions[1], {1, 0, -1}));
     CHECK(near(turned.positions[2], {1, 2, 1}));
@@ -78,7 +78,7 @@ TEST_CASE("A knob turns its groups about an axis, with their normals") {
 
 TEST_CASE("A knob scales its groups about a point, with their normals") {
     const std::string knob = knob_that(R"("scales": [{"groups": ["leaf"], "about": [2, 0, 0], "by": [0.05, 0, 0]}])");
-    const SceneDescription scaled = load(knob, {{"k", "-9"}});  // to one half
+    const SceneDescription scaled = load_knob(knob, {{"k", "-9"}});  // to one half
     CHECK(near(scaled.positions[0], {1, 0, 0}));
     CHECK(scaled.positions[1] == glm::vec3(2, 0, 0));
     CHECK(near(scaled.positions[2], {1, 2, 0}));
@@ -87,17 +87,17 @@ TEST_CASE("A knob scales its groups about a point, with their normals") {
 
 TEST_CASE("A knob is the albedo of its materials") {
     const std::string knob = R"("k": {"default": 0.5, "range": [0, 0.9], "does": "gray", "albedo": ["wall"]})";
-    CHECK(load(knob).materials[0].albedo == glm::vec3(0.5f));
-    const SceneDescription bright = load(knob, {{"k", "0.75"}});
+    CHECK(load_knob(knob).materials[0].albedo == glm::vec3(0.5f));
+    const SceneDescription bright = load_knob(knob, {{"k", "0.75"}});
     CHECK(bright.materials[0].albedo == glm::vec3(0.75f));
     CHECK(bright.materials[1].albedo == glm::vec3(0.5f, 0.25f, 0.5f));
 }
 
 TEST_CASE("Groups that share vertices move together or not at all") {
-    CHECK_THAT(refused(R"("moves": [{"groups": ["frame"], "by": [1, 0, 0]}])"),
+    CHECK_THAT(refused_knob(R"("moves": [{"groups": ["frame"], "by": [1, 0, 0]}])"),
                contains("scene.json:4: ") && contains("vertex 4 is also used by group 'corner'"));
     const SceneDescription moved =
-        load(knob_that(R"("moves": [{"groups": ["frame", "corner"], "by": [1, 0, 0]}])"), {{"k", "2"}});
+        load_knob(knob_that(R"("moves": [{"groups": ["frame", "corner"], "by": [1, 0, 0]}])"), {{"k", "2"}});
     CHECK(moved.positions[3] == glm::vec3(6, 0, 0));
     CHECK(moved.positions[6] == glm::vec3(8, 7, 7));
     CHECK(moved.positions[0] == glm::vec3(0, 0, 0));
@@ -123,12 +123,12 @@ TEST_CASE("Knobs that are wrong in the file are refused with file and line") {
         Case{R"("albedo": ["wall"])", "expected the default to be the albedo"},
         Case{R"("albedo": ["floor"])", "no material 'floor'"});
     INFO(sample.does);
-    const std::string message = refused(sample.does);
+    const std::string message = refused_knob(sample.does);
     CHECK_THAT(message, contains("scene.json:") && contains(sample.told));
 }
 
 TEST_CASE("The frame of a knob is checked") {
-    const auto message = [](const std::string& knob) { return input_error([&] { load(knob); }); };
+    const auto message = [](const std::string& knob) { return input_error([&] { load_knob(knob); }); };
     const std::string tail = R"("does": "", "moves": [{"groups": ["leaf"], "by": [1, 0, 0]}]})";
     CHECK_THAT(message(R"("k": {"default": 1, )" + tail), contains("expected 'default', 'range'"));
     CHECK_THAT(message(R"("k": {"default": 3, "range": [1, 2], )" + tail),
@@ -144,7 +144,7 @@ TEST_CASE("The frame of a knob is checked") {
 TEST_CASE("Values that a knob does not take, and knobs that are not there, are errors of usage") {
     const std::string knob = knob_that(R"("moves": [{"groups": ["leaf"], "by": [1, 0, 0]}])");
     const auto message = [&](const ParameterTexts& asked) {
-        return error_message(ErrorKind::Usage, [&] { load(knob, asked); });
+        return error_message(ErrorKind::Usage, [&] { load_knob(knob, asked); });
     };
     CHECK_THAT(message({{"k", "10.5"}}), contains("-D k: expected a number from -10 to 10 (turn it), got '10.5'"));
     CHECK_THAT(message({{"k", "1"}, {"k", "-11"}}), contains("got '-11'"));
@@ -158,6 +158,6 @@ TEST_CASE("Values that a knob does not take, and knobs that are not there, are e
                                  load_scene("furnace", kAssets, {.parameters = {{"k", "1"}}});
                              }),
                contains("it has none"));
-    CHECK(load(knob, {{"k", "10"}}).knobs[0].value == 10.0f);
-    CHECK(load(knob, {{"k", "20"}, {"k", "4"}}).knobs[0].value == 4.0f);  // the last one counts
+    CHECK(load_knob(knob, {{"k", "10"}}).knobs[0].value == 10.0f);
+    CHECK(load_knob(knob, {{"k", "20"}, {"k", "4"}}).knobs[0].value == 4.0f);  // the last one counts
 }

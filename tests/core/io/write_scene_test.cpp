@@ -10,17 +10,17 @@
 #include "core/scene/instances.h"
 #include "core/scene/scene_hash.h"
 #include "tests/support/catch.hpp"
+#include "tests/support/files/assets.h"
 #include "tests/support/files/input_error.h"
 #include "tests/support/files/temporary_folder.h"
 
 using namespace pl;
 using pl::test::contains;
 using pl::test::input_error;
+using pl::test::kAssets;
 using pl::test::TemporaryFolder;
 
 namespace {
-
-const std::filesystem::path kAssets = PL_SOURCE_DIR "/assets";
 
 SceneDescription rewritten(const SceneDescription& scene) {
     const TemporaryFolder folder;

@@ -2,9 +2,9 @@
 #include "core/measure/halves.h"
 
 #include <cmath>
-#include <random>
 
 #include "core/base/error.h"
+#include "tests/core/measure/noisy_picture.h"
 #include "tests/support/catch.hpp"
 
 namespace pl::test {
@@ -12,27 +12,16 @@ namespace {
 
 using Picture = std::vector<Vec3f>;
 
-constexpr int kSide = 128;
-
-/// Radiance `mean` with independent normal noise in every pixel, the same in all channels.
-Picture noisy(double mean, double deviation, std::uint64_t seed) {
-    std::mt19937_64 generator(seed);
-    std::normal_distribution<double> normal(mean, deviation);
-    Picture picture(kSide * kSide);
-    for (Vec3f& pixel : picture) pixel = Vec3f(static_cast<float>(normal(generator)));
-    return picture;
-}
-
 }  // namespace
 
 // As for noise: 200 experiments, seeds 2000 to 2399, against a reference without noise.
 TEST_CASE("the error says how far it may be off") {
-    const Picture truth(kSide * kSide, Vec3f(1.0f));
+    const Picture truth(kNoisySide * kNoisySide, Vec3f(1.0f));
     double sum = 0.0, squares = 0.0, said = 0.0;
     constexpr int kExperiments = 200;
     for (std::uint64_t i = 0; i < kExperiments; ++i) {
         const Picture a = noisy(1.0, 0.2, 2000 + 2 * i), b = noisy(1.0, 0.2, 2001 + 2 * i);
-        const ErrorParts parts = take_apart({a, b}, {truth, truth}, kSide);
+        const ErrorParts parts = take_apart({a, b}, {truth, truth}, kNoisySide);
         sum += parts.error;
         squares += parts.error * parts.error;
         said += parts.error_off / kExperiments;
@@ -46,7 +35,7 @@ TEST_CASE("halves of unlike length weigh as they are long") {
     const Picture a = noisy(1.0, std::sqrt(0.03), 51), b = noisy(1.0, std::sqrt(0.015), 52);
     const Picture truth(a.size(), Vec3f(1.0f));
     const ErrorParts parts =
-        take_apart({.first = a, .second = b, .first_weight = 1.0, .second_weight = 2.0}, {truth, truth}, kSide);
+        take_apart({.first = a, .second = b, .first_weight = 1.0, .second_weight = 2.0}, {truth, truth}, kNoisySide);
     CHECK_THAT(parts.variance, WithinRel(0.01 / 1.01, 0.055));
     CHECK_THAT(parts.error, WithinRel(measure_error(weighted_mean(a, 1.0, b, 2.0), truth).relmse, 1e-5));
 }
@@ -57,9 +46,9 @@ TEST_CASE("a bias of half a percent is found as bias, and noise alone is not tak
     const Picture r1 = noisy(1.0, 0.01, 11), r2 = noisy(1.0, 0.01, 12);
     for (const double bias : {0.0, planted, -planted}) {
         const Picture a = noisy(1.0 + bias, 0.1, 21), b = noisy(1.0 + bias, 0.1, 22);
-        const ErrorParts parts = take_apart({a, b}, {r1, r2}, kSide);
+        const ErrorParts parts = take_apart({a, b}, {r1, r2}, kNoisySide);
         CAPTURE(bias, parts.signed_bias.value, parts.signed_bias.error);
-        CHECK(parts.pixels == kSide * kSide);
+        CHECK(parts.pixels == kNoisySide * kNoisySide);
         CHECK(parts.signed_bias.error < 0.001);
         CHECK_THAT(parts.signed_bias.value, WithinAbs(bias, 5.0 * parts.signed_bias.error));
         CHECK((std::fabs(parts.signed_bias.value) > 5.0 * parts.signed_bias.error) == (bias != 0.0));
@@ -73,10 +62,10 @@ TEST_CASE("a bias of half a percent is found as bias, and noise alone is not tak
 TEST_CASE("the squared bias is seen where it exceeds the noise of its estimate") {
     const Picture r1 = noisy(1.0, 0.01, 31), r2 = noisy(1.0, 0.01, 32);
     // Its error is 0.01 / sqrt(16384) = 8e-5: a bias of 3 % is eleven of that, one of 0.5 % is a third.
-    const ErrorParts large = take_apart({noisy(1.03, 0.1, 41), noisy(1.03, 0.1, 42)}, {r1, r2}, kSide);
+    const ErrorParts large = take_apart({noisy(1.03, 0.1, 41), noisy(1.03, 0.1, 42)}, {r1, r2}, kNoisySide);
     CHECK(large.squared_bias.is_seen());
     CHECK_THAT(large.error, WithinAbs(large.variance + large.squared_bias.value, 5e-4));
-    const ErrorParts none = take_apart({noisy(1.0, 0.1, 43), noisy(1.0, 0.1, 44)}, {r1, r2}, kSide);
+    const ErrorParts none = take_apart({noisy(1.0, 0.1, 43), noisy(1.0, 0.1, 44)}, {r1, r2}, kNoisySide);
     CHECK(std::fabs(none.squared_bias.value) < 4.9 * none.squared_bias.error);
 }
 

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "core/base/error.h"
+#include "tests/core/measure/noisy_picture.h"
 #include "tests/support/catch.hpp"
 
 namespace pl::test {
@@ -13,22 +14,11 @@ namespace {
 
 using Picture = std::vector<Vec3f>;
 
-constexpr int kSide = 128;
-
-/// Radiance 1 with independent normal noise in every pixel, the same in all channels.
-Picture noisy(double deviation, std::uint64_t seed) {
-    std::mt19937_64 generator(seed);
-    std::normal_distribution<double> normal(1.0, deviation);
-    Picture picture(kSide * kSide);
-    for (Vec3f& pixel : picture) pixel = Vec3f(static_cast<float>(normal(generator)));
-    return picture;
-}
-
 /// Radiance 1 from samples of which each finds light with a chance of `chance`.
 Picture sparse(int samples, double chance, std::uint64_t seed) {
     std::mt19937_64 generator(seed);
     std::binomial_distribution<int> hits(samples, chance);
-    Picture picture(kSide * kSide);
+    Picture picture(kNoisySide * kNoisySide);
     for (Vec3f& pixel : picture) pixel = Vec3f(static_cast<float>(hits(generator) / (samples * chance)));
     return picture;
 }
@@ -58,7 +48,8 @@ TEST_CASE("noise says how far it may be off") {
     double sum = 0.0, squares = 0.0, said = 0.0;
     constexpr int kExperiments = 200;
     for (std::uint64_t i = 0; i < kExperiments; ++i) {
-        const Noise noise = estimate_noise({noisy(0.2, 1000 + 2 * i), noisy(0.2, 1001 + 2 * i)}, kSide);
+        const Noise noise =
+            estimate_noise({noisy(1.0, 0.2, 1000 + 2 * i), noisy(1.0, 0.2, 1001 + 2 * i)}, kNoisySide);
         sum += noise.relmse;
         squares += noise.relmse * noise.relmse;
         said += noise.relmse_off / kExperiments;
@@ -92,9 +83,9 @@ TEST_CASE("the window ends at the border and leaves out pixels that are not fini
 
 TEST_CASE("halves give the noise of their mean") {
     // 16384 pixels: the estimate has a relative deviation of sqrt(2 / 16384) = 1.1 %; 5.5 % are five of them.
-    const Picture a = noisy(0.2, 1);
-    const Picture b = noisy(0.2, 2);
-    CHECK_THAT(estimate_noise({a, b}, kSide).mse, WithinRel(0.5 * 0.04, 0.055));
+    const Picture a = noisy(1.0, 0.2, 1);
+    const Picture b = noisy(1.0, 0.2, 2);
+    CHECK_THAT(estimate_noise({a, b}, kNoisySide).mse, WithinRel(0.5 * 0.04, 0.055));
     const Picture mean = weighted_mean(a, 1.0, b, 1.0);
     CHECK_THAT(measure_error(mean, Picture(a.size(), Vec3f(1.0f))).mse, WithinRel(0.5 * 0.04, 0.055));
 }
@@ -107,22 +98,22 @@ TEST_CASE("a picture that has hardly found any light is as noisy as it is") {
         CAPTURE(samples, truth);
         // 81 pixels in a window: their mean is off by sqrt(19 / (2 n 81)), 0.34 to 0.06, of which the square is off by
         // twice that; and pixels divided by less weigh more.
-        const double relmse = estimate_noise({a, b}, kSide).relmse;
+        const double relmse = estimate_noise({a, b}, kNoisySide).relmse;
         CHECK(relmse > 0.8 * truth);
         CHECK(relmse < 1.4 * truth);
     }
 }
 
 TEST_CASE("threads change no bit of noise, error and parts") {
-    const Picture a = noisy(0.3, 5), b = noisy(0.3, 6), r1 = noisy(0.01, 7), r2 = noisy(0.01, 8);
-    const Noise noise = estimate_noise({a, b}, kSide);
+    const Picture a = noisy(1.0, 0.3, 5), b = noisy(1.0, 0.3, 6), r1 = noisy(1.0, 0.01, 7), r2 = noisy(1.0, 0.01, 8);
+    const Noise noise = estimate_noise({a, b}, kNoisySide);
     const Metrics metrics = measure_error(a, ReferenceHalves{r1, r2});
-    const ErrorParts parts = take_apart({a, b}, {r1, r2}, kSide);
+    const ErrorParts parts = take_apart({a, b}, {r1, r2}, kNoisySide);
     for (const int threads : {2, 3, 64}) {
-        CHECK(estimate_noise({a, b}, kSide, threads).relmse == noise.relmse);
+        CHECK(estimate_noise({a, b}, kNoisySide, threads).relmse == noise.relmse);
         CHECK(measure_error(a, ReferenceHalves{r1, r2}, threads).relmse_trimmed == metrics.relmse_trimmed);
-        CHECK(take_apart({a, b}, {r1, r2}, kSide, threads).squared_bias.value == parts.squared_bias.value);
-        CHECK(take_apart({a, b}, {r1, r2}, kSide, threads).variance == parts.variance);
+        CHECK(take_apart({a, b}, {r1, r2}, kNoisySide, threads).squared_bias.value == parts.squared_bias.value);
+        CHECK(take_apart({a, b}, {r1, r2}, kNoisySide, threads).variance == parts.variance);
     }
 }
 

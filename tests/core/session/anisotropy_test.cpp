@@ -11,12 +11,10 @@ using namespace pl::test;
 
 namespace {
 
-State picture_of(const SceneDescription& scene, Estimator estimator, FeatureSet forced) {
+State forced_picture(const SceneDescription& scene, Estimator estimator, FeatureSet forced) {
     RenderSettings settings = small_settings(scene, estimator);
     settings.forced_effects = forced;
-    Session session = make_session(scene, settings, 2);
-    render_passes(session, 4);
-    return state_of(session);
+    return state_after(make_session(scene, settings, 2), 4);
 }
 
 SceneDescription brushed_alike(float anisotropy, float rotation_deg) {
@@ -35,7 +33,7 @@ TEST_CASE("Metals of an anisotropy of 0 have the bits of kernels without it, by 
     CHECK_FALSE(needed_effects(pack_scene(even)).has(Feature::Anisotropy));
     for (const Estimator estimator : kEstimators) {
         INFO(estimator);
-        CHECK(same_state(picture_of(even, estimator, {}), picture_of(even, estimator, kEveryFeature)));
+        CHECK(same_state(forced_picture(even, estimator, {}), forced_picture(even, estimator, kEveryFeature)));
     }
 }
 
@@ -47,14 +45,14 @@ TEST_CASE("Mirrors and surfaces that are no metal know no anisotropy") {
             if (material.kind == SurfaceKind::Conductor) material.roughness = 0.0f;
     CHECK_FALSE(needed_effects(pack_scene(named)).has(Feature::Anisotropy));
     const Estimator estimator{MethodId::Default, true};
-    CHECK(same_state(picture_of(plain, estimator, {}), picture_of(named, estimator, {})));
+    CHECK(same_state(forced_picture(plain, estimator, {}), forced_picture(named, estimator, {})));
 }
 
 TEST_CASE("Anisotropy and its rotation change the picture") {
     const Estimator estimator{MethodId::Default, true};
-    const State even = picture_of(brushed_alike(0.0f, 0.0f), estimator, {});
-    const State along = picture_of(brushed_alike(0.8f, 0.0f), estimator, {});
+    const State even = forced_picture(brushed_alike(0.0f, 0.0f), estimator, {});
+    const State along = forced_picture(brushed_alike(0.8f, 0.0f), estimator, {});
     CHECK(needed_effects(pack_scene(brushed_alike(0.8f, 0.0f))).has(Feature::Anisotropy));
     CHECK_FALSE(same_film(even, along));
-    CHECK_FALSE(same_film(along, picture_of(brushed_alike(0.8f, 90.0f), estimator, {})));
+    CHECK_FALSE(same_film(along, forced_picture(brushed_alike(0.8f, 90.0f), estimator, {})));
 }

@@ -22,12 +22,10 @@ SceneDescription blended_cornell(float share) {
     return scene;
 }
 
-State picture_of(const SceneDescription& scene, Estimator estimator) {
+State picture_of_all_effects(const SceneDescription& scene, Estimator estimator) {
     RenderSettings settings = small_settings(scene, estimator);
     settings.forced_effects = kEveryFeature;
-    Session session = make_session(scene, settings, 2);
-    render_passes(session, 4);
-    return state_of(session);
+    return state_after(make_session(scene, settings, 2), 4);
 }
 
 }  // namespace
@@ -42,9 +40,9 @@ TEST_CASE("A blend without a share of the other material has the bits of a scene
     CHECK_FALSE(needed_effects(pack_scene(blended_cornell(0.0f))).has(Feature::Blends));
     for (const Estimator estimator : kEstimators) {
         INFO(estimator);
-        const State expected = picture_of(pure, estimator);
-        CHECK(same_state(expected, picture_of(nowhere, estimator)));
-        CHECK(same_state(expected, picture_of(blended_cornell(0.0f), estimator)));
+        const State expected = picture_of_all_effects(pure, estimator);
+        CHECK(same_state(expected, picture_of_all_effects(nowhere, estimator)));
+        CHECK(same_state(expected, picture_of_all_effects(blended_cornell(0.0f), estimator)));
     }
 }
 
@@ -55,9 +53,9 @@ TEST_CASE("A blend that is all of the other material has the bits of that one") 
     pure.materials[0].name = name;
     for (const bool next_event : {false, true}) {
         const Estimator estimator{MethodId::Default, next_event};
-        const State expected = picture_of(pure, estimator);
-        CHECK(same_state(expected, picture_of(blended_cornell(1.0f), estimator)));
-        CHECK_FALSE(same_film(expected, picture_of(blended_cornell(0.5f), estimator)));
+        const State expected = picture_of_all_effects(pure, estimator);
+        CHECK(same_state(expected, picture_of_all_effects(blended_cornell(1.0f), estimator)));
+        CHECK_FALSE(same_film(expected, picture_of_all_effects(blended_cornell(0.5f), estimator)));
     }
 }
 

@@ -13,13 +13,6 @@ using namespace pl::test;
 
 namespace {
 
-constexpr std::uint32_t kPasses = 2;
-
-/// Odd numbers of rows and columns are for the tests of pictures.
-RenderSettings tiny_settings(const SceneDescription& scene) {
-    return small_settings(scene, {MethodId::Default, false}, 40, 30);
-}
-
 /// All parts that an edit may clear, as visible to a caller of the session.
 struct Contents {
     std::array<State, kMethodCount> methods;
@@ -33,14 +26,6 @@ Contents contents_of(Session& session) {
     for (const MethodInfo& method : all_methods())
         contents.methods[static_cast<std::size_t>(method.id)] = state_of(session, {method.id, View::Beauty});
     return contents;
-}
-
-/// A session in which every method has rendered, and precomputed or learned.
-Session used_session(const SceneDescription& scene, const RenderSettings& settings,
-                     const std::shared_ptr<RenderBackend>& backend = make_cpu_backend({.threads = 2})) {
-    Session session(backend, std::make_shared<const SceneDescription>(scene), settings);
-    for (const MethodInfo& method : all_methods()) render_passes(session, {method.id, View::Beauty}, kPasses);
-    return session;
 }
 
 bool all_films_empty(const Contents& contents) {
@@ -79,7 +64,7 @@ std::shared_ptr<const LearnedField> field_from_elsewhere(const SceneDescription&
     settings.seed = 11;
     settings.field.volumes = 50;
     Session session = make_session(scene, settings, 2);
-    render_passes(session, kPasses);
+    render_passes(session, kUsedPasses);
     return std::make_shared<const LearnedField>(session.export_field(session.settings().method));
 }
 
@@ -158,7 +143,7 @@ RenderSettings edited(RenderSettings settings, const SessionEdit& edit) {
 TEST_CASE("Every kind of edit has a case here") {
     const SceneDescription scene = shipped_scene("door");
     std::set<std::size_t> covered;
-    for (const Case& c : all_cases(scene, tiny_settings(scene))) covered.insert(c.edit.index());
+    for (const Case& c : all_cases(scene, tiny_settings(scene, false))) covered.insert(c.edit.index());
     for (std::size_t i = 0; i < std::variant_size_v<SessionEdit>; ++i) {
         INFO("alternative " << i << " of SessionEdit");
         CHECK(covered.contains(i));
@@ -167,12 +152,12 @@ TEST_CASE("Every kind of edit has a case here") {
 
 TEST_CASE("Every edit clears what the table says and keeps the rest") {
     const SceneDescription scene = shipped_scene("door");
-    for (const Case& c : all_cases(scene, tiny_settings(scene))) {
+    for (const Case& c : all_cases(scene, tiny_settings(scene, false))) {
         INFO(c.name);
         RenderSettings ignored;
         CHECK(take_over(c.edit, ignored) == c.cleared);
         const std::shared_ptr<RenderBackend> backend = make_cpu_backend({.threads = 2});
-        Session session = used_session(scene, tiny_settings(scene), backend);
+        Session session = used_session(scene, tiny_settings(scene, false), backend);
         const Contents before = contents_of(session);
         REQUIRE_FALSE(all_films_empty(before));
         REQUIRE_FALSE(all_tables_empty(before));
@@ -196,7 +181,7 @@ TEST_CASE("Every edit clears what the table says and keeps the rest") {
 
 TEST_CASE("An edit that clears the tables leaves a session like a new one") {
     const SceneDescription scene = shipped_scene("door");
-    const RenderSettings settings = tiny_settings(scene);
+    const RenderSettings settings = tiny_settings(scene, false);
     for (const Case& c : all_cases(scene, settings)) {
         if (!c.cleared.tables) continue;
         Session session = used_session(scene, settings);
@@ -207,9 +192,9 @@ TEST_CASE("An edit that clears the tables leaves a session like a new one") {
             RenderSettings fresh_settings = edited(settings, c.edit);
             fresh_settings.method = method.id;
             Session fresh = make_session(new_scene, fresh_settings, 2);
-            render_passes(fresh, kPasses);
+            render_passes(fresh, kUsedPasses);
             const FilmSlot slot = slot_of(fresh_settings);
-            render_passes(session, slot, kPasses);
+            render_passes(session, slot, kUsedPasses);
             CHECK(same_state(state_of(fresh), state_of(session, slot)));
         }
     }
@@ -218,15 +203,15 @@ TEST_CASE("An edit that clears the tables leaves a session like a new one") {
 // Default path tracing has no field, so clearing its film must suffice for the state of a new session.
 TEST_CASE("An edit that clears the films leaves default path tracing like a new session") {
     const SceneDescription scene = shipped_scene("door");
-    const RenderSettings settings = tiny_settings(scene);
+    const RenderSettings settings = tiny_settings(scene, false);
     for (const Case& c : all_cases(scene, settings)) {
         if (!c.cleared.films || c.cleared.tables) continue;
         INFO(c.name);
         Session session = used_session(scene, settings);
         session.apply(c.edit);
-        render_passes(session, kPasses);
+        render_passes(session, kUsedPasses);
         Session fresh = make_session(scene, edited(settings, c.edit), 2);
-        render_passes(fresh, kPasses);
+        render_passes(fresh, kUsedPasses);
         CHECK(same_state(state_of(fresh), state_of(session)));
     }
 }
@@ -234,7 +219,7 @@ TEST_CASE("An edit that clears the films leaves default path tracing like a new 
 // The tables kept for a moved camera guide the first pass of the new view.
 TEST_CASE("A moved camera goes on with the learned field") {
     const SceneDescription scene = shipped_scene("door");
-    RenderSettings settings = tiny_settings(scene);
+    RenderSettings settings = tiny_settings(scene, false);
     settings.method = MethodId::Reinforcement;
     Session session = make_session(scene, settings, 2);
     render_passes(session, 8);
@@ -254,13 +239,13 @@ TEST_CASE("A moved camera goes on with the learned field") {
 
 TEST_CASE("A pass that was stopped is forgotten with its film") {
     const SceneDescription scene = shipped_scene("door");
-    Session session = make_session(scene, tiny_settings(scene), 2);
+    Session session = make_session(scene, tiny_settings(scene, false), 2);
     render_passes(session, 1);
     StopFlag stop{true};
     REQUIRE(session.advance(slot_of(session), &stop) == Progress::Stopped);
     session.apply(EditRestart{});
     render_passes(session, 1);
-    Session fresh = make_session(scene, tiny_settings(scene), 2);
+    Session fresh = make_session(scene, tiny_settings(scene, false), 2);
     render_passes(fresh, 1);
     CHECK(same_state(state_of(fresh), state_of(session)));
 }

@@ -12,7 +12,6 @@ using namespace pl::test;
 namespace {
 
 constexpr FilmSlot kDefault{MethodId::Default, View::Beauty};
-constexpr FilmSlot kLearning{MethodId::Reinforcement, View::Beauty};
 constexpr FilmSlot kVisits{MethodId::Reinforcement, View::Visits};
 constexpr FilmSlot kMapped{MethodId::Precomputed, View::Beauty};
 
@@ -46,7 +45,7 @@ TEST_CASE("Film renderer: a film of a method without a field places no volumes")
     CHECK(made.films.progress(kDefault).counters.paths == 5 * std::uint64_t{made.inputs.pixel_count()});
     CHECK_FALSE(made.fields.placement().is_placed());
     CHECK(made.films.read(kDefault).width == made.inputs.settings.width);
-    CHECK(made.films.read(kLearning).mean.empty());  // no film was allocated for it
+    CHECK(made.films.read(kLearningFilm).mean.empty());  // no film was allocated for it
 }
 
 TEST_CASE("Film renderer: a map is filled before its first pass") {
@@ -61,8 +60,8 @@ TEST_CASE("Film renderer: a pass of a view of what is learned follows one that l
     Films made;
     CHECK(made.advance(kVisits) == Progress::Rendered);
     CHECK(made.films.progress(kVisits).passes == 1);
-    CHECK(made.films.progress(kLearning).passes == 1);
-    CHECK(made.fields.trained_passes(kLearning.method) == 1);
+    CHECK(made.films.progress(kLearningFilm).passes == 1);
+    CHECK(made.fields.trained_passes(kLearningFilm.method) == 1);
     CHECK_FALSE(made.films.progress(kVisits).origin.warm);
 }
 

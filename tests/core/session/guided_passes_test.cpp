@@ -13,7 +13,7 @@ using namespace pl::test;
 
 namespace {
 
-constexpr std::uint32_t kPasses = 60;
+constexpr std::uint32_t kGuidedPasses = 60;
 
 /// Of the least size that has a warm-up.
 RenderSettings large_picture(RenderSettings settings) {
@@ -27,7 +27,7 @@ TEST_CASE("Guiding is given up where it changes nothing but the cost, by both gu
     const SceneDescription scene = shipped_scene("door");
     for (const MethodId method : {MethodId::Precomputed, MethodId::Reinforcement}) {
         Session session = make_session(scene, settings_without_gain(scene, method));
-        render_passes(session, 2 * kPasses);
+        render_passes(session, 2 * kGuidedPasses);
         const auto status = session.guiding_status(slot_of(session));
         REQUIRE(status);
         REQUIRE(status->gain);
@@ -35,9 +35,9 @@ TEST_CASE("Guiding is given up where it changes nothing but the cost, by both gu
         CHECK(*status->gain < 0.9);
         CHECK(*status->gain > 0.3);
         CHECK_FALSE(status->pays);
-        CHECK(status->unguided_passes > kPasses / 4);
+        CHECK(status->unguided_passes > kGuidedPasses / 4);
         CHECK(status->trial_paths >= 40 * 40);  // a trial of half the pixels, then guided ones
-        CHECK(session.snapshot(slot_of(session)).counters.paths == std::uint64_t{2 * kPasses} * 40 * 40);
+        CHECK(session.snapshot(slot_of(session)).counters.paths == std::uint64_t{2 * kGuidedPasses} * 40 * 40);
     }
 }
 
@@ -46,7 +46,7 @@ TEST_CASE("Guiding is kept where every pass shall be guided, and by methods with
     RenderSettings settings = settings_without_gain(scene, MethodId::Reinforcement);
     settings.guiding = GuidingRule::Always;
     Session always = make_session(scene, settings);
-    render_passes(always, kPasses);
+    render_passes(always, kGuidedPasses);
     CHECK_FALSE(always.guiding_status(slot_of(always)));
     CHECK(always.snapshot(slot_of(always)).counters.path.method.lookups > 0);
     settings.guiding = GuidingRule::Paying;
@@ -77,15 +77,15 @@ TEST_CASE("Threads and stops do not change a bit of a film that guiding was give
     const SceneDescription scene = shipped_scene("door");
     const RenderSettings settings = settings_without_gain(scene, MethodId::Reinforcement);
     Session one = make_session(scene, settings);
-    render_passes(one, kPasses);
+    render_passes(one, kGuidedPasses);
     const State expected = state_of(one);
     REQUIRE(one.guiding_status(slot_of(one))->unguided_passes > 0);
     Session three = make_session(scene, settings, 3);
-    render_passes(three, kPasses);
+    render_passes(three, kGuidedPasses);
     CHECK(same_state(expected, state_of(three)));
     CHECK(three.guiding_status(slot_of(three))->gain == one.guiding_status(slot_of(one))->gain);
     Session stopped = make_session(scene, settings, 2);
-    CHECK(render_with_stops(stopped, kPasses) > 0);
+    CHECK(render_with_stops(stopped, kGuidedPasses) > 0);
     CHECK(same_state(expected, state_of(stopped)));
 }
 
@@ -93,7 +93,7 @@ TEST_CASE("A field goes on learning from rare guided trials") {
     const SceneDescription scene = shipped_scene("door");
     Session session = make_session(scene, settings_without_gain(scene, MethodId::Reinforcement));
     const FilmSlot slot = slot_of(session);
-    render_passes(session, kPasses);
+    render_passes(session, kGuidedPasses);
     const std::uint64_t records = session.field_status(MethodId::Reinforcement)->records;
     const GuidingStatus before = *session.guiding_status(slot);
     render_passes(session, 400);
@@ -210,10 +210,10 @@ TEST_CASE("Threads and stops do not change a bit of a warm-up and of the film af
 TEST_CASE("A replay knows the passes that were not guided") {
     const SceneDescription scene = shipped_scene("door");
     Session session = make_session(scene, settings_without_gain(scene, MethodId::Reinforcement));
-    render_passes(session, kPasses);
+    render_passes(session, kGuidedPasses);
     const PassReplay replay = session.pass_replay(slot_of(session));
     std::uint32_t unguided = 0;
-    for (std::uint32_t pass = 0; pass < kPasses; ++pass) unguided += replay.is_guided(pass) ? 0u : 1u;
+    for (std::uint32_t pass = 0; pass < kGuidedPasses; ++pass) unguided += replay.is_guided(pass) ? 0u : 1u;
     CHECK(replay.is_guided(0));
     CHECK(unguided == session.guiding_status(slot_of(session))->unguided_passes);
 }

@@ -11,10 +11,8 @@ using namespace pl::test;
 
 namespace {
 
-State picture_of(const SceneDescription& scene, Estimator estimator, int threads) {
-    Session session = make_session(scene, small_settings(scene, estimator), threads);
-    render_passes(session, 6);
-    return state_of(session);
+State small_picture(const SceneDescription& scene, Estimator estimator, int threads) {
+    return state_after(make_session(scene, small_settings(scene, estimator), threads), 6);
 }
 
 }  // namespace
@@ -28,9 +26,9 @@ TEST_CASE("Pictures of instances have the bits of pictures of copies") {
     for (const bool next_event : {false, true}) {
         INFO("light samples " << next_event);
         const Estimator estimator{MethodId::Default, next_event};
-        const State expected = picture_of(copied, estimator, 2);
-        CHECK(same_film(expected, picture_of(instanced, estimator, 2)));
-        CHECK(same_film(expected, picture_of(instanced, estimator, 1)));
+        const State expected = small_picture(copied, estimator, 2);
+        CHECK(same_film(expected, small_picture(instanced, estimator, 2)));
+        CHECK(same_film(expected, small_picture(instanced, estimator, 1)));
     }
 }
 
@@ -40,7 +38,7 @@ TEST_CASE("Guided pictures of instances do not depend on the number of threads")
         for (const bool next_event : {false, true}) {
             const Estimator estimator{method, next_event};
             INFO(estimator);
-            CHECK(same_state(picture_of(scene, estimator, 1), picture_of(scene, estimator, 2)));
+            CHECK(same_state(small_picture(scene, estimator, 1), small_picture(scene, estimator, 2)));
         }
 }
 

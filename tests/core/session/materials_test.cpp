@@ -18,12 +18,6 @@ using namespace pl::test;
 
 namespace {
 
-constexpr std::uint32_t kPasses = 2;
-
-RenderSettings tiny_settings(const SceneDescription& scene) {
-    return small_settings(scene, {MethodId::Default, true}, 40, 30);
-}
-
 std::uint32_t index_of(const SceneDescription& scene, const std::string& name) {
     for (std::uint32_t i = 0; i < scene.materials.size(); ++i)
         if (scene.materials[i].name == name) return i;
@@ -88,24 +82,15 @@ std::vector<Change> all_changes() {
     };
 }
 
-constexpr FilmSlot kLearning{MethodId::Reinforcement, View::Beauty};
-
-Session used_session(const SceneDescription& scene, const RenderSettings& settings,
-                     const std::shared_ptr<RenderBackend>& backend) {
-    Session session(backend, std::make_shared<const SceneDescription>(scene), settings);
-    for (const MethodInfo& method : all_methods()) render_passes(session, {method.id, View::Beauty}, kPasses);
-    return session;
-}
-
 void check_like_fresh(Session& session, const SceneDescription& scene) {
     for (const MethodInfo& method : all_methods()) {
         INFO(method.name);
-        RenderSettings settings = tiny_settings(scene);
+        RenderSettings settings = tiny_settings(scene, true);
         settings.method = method.id;
         Session fresh = make_session(scene, settings, 2);
-        render_passes(fresh, kPasses);
+        render_passes(fresh, kUsedPasses);
         const FilmSlot slot = slot_of(settings);
-        render_passes(session, slot, kPasses);
+        render_passes(session, slot, kUsedPasses);
         CHECK(same_state(state_of(fresh), state_of(session, slot)));
         CHECK(fresh.served_kernel(slot).name == session.served_kernel(slot).name);
     }
@@ -123,13 +108,13 @@ bool same_scene(const HostScene& a, HostScene b) {
 TEST_CASE("Material edit: the session goes on like a new one of the changed scene") {
     for (const Change& change : all_changes()) {
         INFO(change.text);
-        Session session = used_session(change.before, tiny_settings(change.before), make_cpu_backend({.threads = 2}));
-        const double placed = session.clocks(kLearning).place;
+        Session session = used_session(change.before, tiny_settings(change.before, true));
+        const double placed = session.clocks(kLearningFilm).place;
         session.apply(change.edit);
-        CHECK(session.passes(kLearning) == 0);
+        CHECK(session.passes(kLearningFilm) == 0);
         CHECK(scene_hash(session.scene()) == scene_hash(change.after()));
         CHECK(scene_hash(session.scene()) != scene_hash(change.before));
-        CHECK((session.clocks(kLearning).place == placed) == change.keeps_volumes);
+        CHECK((session.clocks(kLearningFilm).place == placed) == change.keeps_volumes);
         check_like_fresh(session, change.after());
     }
 }
@@ -137,7 +122,7 @@ TEST_CASE("Material edit: the session goes on like a new one of the changed scen
 TEST_CASE("Material edit: changed back, the session is like a new one of the first scene") {
     for (const Change& change : all_changes()) {
         INFO(change.text);
-        Session session = used_session(change.before, tiny_settings(change.before), make_cpu_backend({.threads = 2}));
+        Session session = used_session(change.before, tiny_settings(change.before, true));
         session.apply(change.edit);
         session.apply(EditMaterial{change.edit.index, change.before.materials[change.edit.index]});
         CHECK(scene_hash(session.scene()) == scene_hash(change.before));
@@ -163,7 +148,7 @@ TEST_CASE("Material edit: the needed effects follow") {
         m.kind = SurfaceKind::Plastic;
         m.roughness = 0.3f;
     });
-    Session session = make_session(change.before, tiny_settings(change.before), 2);
+    Session session = make_session(change.before, tiny_settings(change.before, true), 2);
     CHECK_FALSE(session.needed_features(slot_of(session)).has_any(kLobeFeatures));
     session.apply(change.edit);
     CHECK(session.needed_features(slot_of(session)).covers(features(Feature::Plastic, Feature::Rough)));
@@ -173,8 +158,8 @@ TEST_CASE("Material edit: the needed effects follow") {
 
 TEST_CASE("Material edit: a bad value is refused with the reason, and nothing changes") {
     const SceneDescription scene = shipped_scene("cornell");
-    Session session = used_session(scene, tiny_settings(scene), make_cpu_backend({.threads = 2}));
-    const State before = state_of(session, kLearning);
+    Session session = used_session(scene, tiny_settings(scene, true));
+    const State before = state_of(session, kLearningFilm);
     const auto packed = session.packed_scene();
     const auto refused = [&](const std::string& part, const std::function<void(MaterialDescription&)>& spoil) {
         EditMaterial edit{0, scene.materials[0]};
@@ -199,32 +184,32 @@ TEST_CASE("Material edit: a bad value is refused with the reason, and nothing ch
     const auto last = static_cast<std::uint32_t>(scene.materials.size());
     error_message(ErrorKind::Usage, [&] { session.apply(EditMaterial{last, scene.materials[0]}); });
     CHECK(session.packed_scene() == packed);
-    CHECK(same_state(before, state_of(session, kLearning)));
+    CHECK(same_state(before, state_of(session, kLearningFilm)));
 }
 
 TEST_CASE("Material edit: a parked back end gets the changed scene when it returns") {
     const Change change = all_changes().front();
     const auto first = make_cpu_backend({.threads = 2});
     const std::shared_ptr<RenderBackend> kept = std::shared_ptr<RenderBackend>(make_cpu_backend({.threads = 1}));
-    Session session = used_session(change.before, tiny_settings(change.before), kept);
+    Session session = used_session(change.before, tiny_settings(change.before, true), kept);
     session.apply(EditBackend{std::shared_ptr<RenderBackend>(make_cpu_backend({.threads = 2}))});
     session.apply(change.edit);
     session.apply(EditBackend{kept});
-    CHECK(session.passes(kLearning) == 0);
+    CHECK(session.passes(kLearningFilm) == 0);
     check_like_fresh(session, change.after());
 }
 
 TEST_CASE("Material edit: one that does not fit into the back end changes nothing") {
     const Change change = all_changes().front();
     const auto backend = std::make_shared<FailingBackend>();
-    Session session = used_session(change.before, tiny_settings(change.before), backend);
-    const State before = state_of(session, kLearning);
+    Session session = used_session(change.before, tiny_settings(change.before, true), backend);
+    const State before = state_of(session, kLearningFilm);
     const auto packed = session.packed_scene();
     backend->failure = FailingBackend::Failure::Scene;
     error_message(ErrorKind::Unavailable, [&] { session.apply(change.edit); });
     CHECK(session.packed_scene() == packed);
     CHECK(scene_hash(session.scene()) == scene_hash(change.before));
-    CHECK(same_state(before, state_of(session, kLearning)));
+    CHECK(same_state(before, state_of(session, kLearningFilm)));
     backend->failure = FailingBackend::Failure::None;
     session.apply(change.edit);
     check_like_fresh(session, change.after());

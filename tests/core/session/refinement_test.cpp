@@ -17,8 +17,6 @@ using namespace pl::test;
 
 namespace {
 
-constexpr Estimator kLearning{MethodId::Reinforcement, false};
-
 /// Passes before the first round of refinement, and before the last.
 constexpr std::uint32_t kFirst = 8;
 constexpr std::uint32_t kLast = 16;
@@ -28,7 +26,7 @@ const SceneDescription& door() {
     return scene;
 }
 
-RenderSettings refining(float share = 0.5f, Estimator estimator = kLearning) {
+RenderSettings refining(float share = 0.5f, Estimator estimator = kLearningPaths) {
     RenderSettings settings = small_settings(door(), estimator);
     settings.field.refine_share = share;
     return settings;
@@ -100,7 +98,7 @@ TEST_CASE("Nothing changes before the first volumes are added, nor if none may b
 TEST_CASE(
     "Without a given share volumes are added where the budget decides, as many as the training samples suffice for") {
     constexpr std::uint64_t kRecordsPerVolume = 32 * 4;
-    RenderSettings settings = settings_for(door(), kLearning, 61, 47);
+    RenderSettings settings = settings_for(door(), kLearningPaths, 61, 47);
     settings.field.bins = 4;
     Session session = make_session(door(), settings, 2);
     render_passes(session, kFirst - 1);
@@ -120,7 +118,7 @@ TEST_CASE(
 }
 
 TEST_CASE("Without a given share no volume is added in small pictures, nor where the number of volumes is given") {
-    RenderSettings settings = settings_for(door(), kLearning, 30, 20);
+    RenderSettings settings = settings_for(door(), kLearningPaths, 30, 20);
     settings.field.bins = 4;
     Session small = make_session(door(), settings, 2);
     render_passes(small, kLast);
@@ -136,7 +134,7 @@ TEST_CASE("Without a given share no volume is added in small pictures, nor where
 TEST_CASE("Without a given share volumes are also added later, as training samples come") {
     constexpr std::uint64_t kRecordsPerVolume = 96 * 4;
     constexpr std::uint32_t kRounds = 4;  // after 8, 16, 48 and 96 passes
-    RenderSettings settings = settings_for(door(), kLearning, 26, 20);
+    RenderSettings settings = settings_for(door(), kLearningPaths, 26, 20);
     settings.field.bins = 4;
     Session session = make_session(door(), settings, 2);
     render_passes(session, 191);
@@ -191,7 +189,7 @@ TEST_CASE("A field that is saved before, between or after the rounds goes on wit
         render_passes(first, saved);
         const LearnedField field = through_file(first.export_field(first.settings().method));
         CHECK((field.refinement == first.refinement()));
-        Session second = make_session(door(), small_settings(door(), kLearning), 1);
+        Session second = make_session(door(), small_settings(door(), kLearningPaths), 1);
         second.import_field(field);
         CHECK(second.field_status(second.settings().method)->added_volumes ==
               first.field_status(first.settings().method)->added_volumes);
@@ -256,14 +254,13 @@ TEST_CASE("A back end that fails while the placement is refined leaves a session
 
 TEST_CASE("A radiance map that is complete and its picture go on, one that is not begins anew") {
     constexpr FilmSlot kMap{MethodId::Precomputed, View::Beauty};
-    constexpr FilmSlot kLearning{MethodId::Reinforcement, View::Beauty};
     const RenderSettings settings = refining(1.0f);
     Session session = make_session(door(), settings, 2);
     const auto map = [&] { return *session.field_status(kMap.method); };
     render_passes(session, kMap, 2);
     const State before = state_of(session, kMap);
     const std::uint64_t records = map().records;
-    render_passes(session, kLearning, kFirst);
+    render_passes(session, kLearningFilm, kFirst);
     const std::uint32_t added = session.refinement().added;
     REQUIRE(added > 0);
     CHECK(same_film(before, state_of(session, kMap)));
@@ -278,7 +275,7 @@ TEST_CASE("A radiance map that is complete and its picture go on, one that is no
     const auto partial_map = [&] { return *partial.field_status(kMap.method); };
     REQUIRE(partial.advance(kMap) == Progress::Precomputed);
     const double spent = partial.clocks(kMap).precompute;
-    render_passes(partial, kLearning, kFirst);
+    render_passes(partial, kLearningFilm, kFirst);
     CHECK(partial_map().precomputed_share == 0.0);
     CHECK(partial_map().records == 0);
     CHECK(partial.clocks(kMap).precompute == spent);  // the seconds stay charged

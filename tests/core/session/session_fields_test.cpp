@@ -13,7 +13,6 @@ using namespace pl::test;
 
 namespace {
 
-constexpr MethodId kLearner = MethodId::Reinforcement;
 constexpr MethodId kMap = MethodId::Precomputed;
 
 /// Inputs with the fields of a session on them.

@@ -13,8 +13,6 @@ using namespace pl::test;
 
 namespace {
 
-constexpr MethodId kLearner = MethodId::Reinforcement;
-
 Session learner(bool next_event = false) {
     const SceneDescription scene = shipped_scene("door");
     return make_session(scene, small_settings(scene, {kLearner, next_event}));

@@ -19,8 +19,6 @@ using namespace pl::test;
 
 namespace {
 
-constexpr Estimator kLearning{MethodId::Reinforcement, false};
-
 template <class T, class Allocator>
 std::uint64_t sum(const std::vector<T, Allocator>& values) {
     return std::accumulate(values.begin(), values.end(), std::uint64_t{0});
@@ -30,7 +28,7 @@ std::uint64_t sum(const std::vector<T, Allocator>& values) {
 Session stopped_in_first_pass(const SceneDescription& scene) {
     Uniforms random(1);
     for (int attempt = 0; attempt < 20; ++attempt) {
-        Session session = make_session(scene, small_settings(scene, kLearning, 300, 200), 2);
+        Session session = make_session(scene, small_settings(scene, kLearningPaths, 300, 200), 2);
         while (session.passes(slot_of(session)) == 0) {
             advance_interrupted(session, random.next());
             if (pass_is_partial(session) &&
@@ -176,7 +174,7 @@ TEST_CASE("Random numbers of training samples are not drawn again for another pi
 
 TEST_CASE("Training samples stay pending until the tables are updated, and none is lost") {
     const SceneDescription scene = shipped_scene("door");
-    Session session = make_session(scene, small_settings(scene, kLearning), 2);
+    Session session = make_session(scene, small_settings(scene, kLearningPaths), 2);
     for (std::uint32_t pass = 1; pass <= 20; ++pass) {
         render_passes(session, 1);
         INFO("after pass " << pass);
@@ -189,7 +187,7 @@ TEST_CASE("Training samples stay pending until the tables are updated, and none 
 
 TEST_CASE("A picture that begins anew updates the tables after its first pass, with the samples that were pending") {
     const SceneDescription scene = shipped_scene("door");
-    Session session = make_session(scene, small_settings(scene, kLearning), 2);
+    Session session = make_session(scene, small_settings(scene, kLearningPaths), 2);
     render_passes(session, 17);
     REQUIRE(waiting_records(session) > 0);
     session.apply(EditRestart{});
@@ -201,7 +199,7 @@ TEST_CASE("A picture that begins anew updates the tables after its first pass, w
 
 TEST_CASE("Pending training samples are saved and loaded with the tables") {
     const SceneDescription scene = shipped_scene("door");
-    const RenderSettings settings = small_settings(scene, kLearning);
+    const RenderSettings settings = small_settings(scene, kLearningPaths);
     Session first = make_session(scene, settings, 2);
     render_passes(first, 17);
     const LearnedField field = first.export_field(first.settings().method);
@@ -233,7 +231,7 @@ TEST_CASE("A run goes on in the sequences of the last one like it, unless guidin
 
 TEST_CASE("Passes that train draw from new sequences after every update, and those of a frozen field from one") {
     const SceneDescription scene = shipped_scene("door");
-    Session session = make_session(scene, small_settings(scene, kLearning), 2);
+    Session session = make_session(scene, small_settings(scene, kLearningPaths), 2);
     const auto run_of = [&](std::uint32_t pass) { return session.pass_replay(slot_of(session)).run_of(pass); };
     render_passes(session, 13);
     for (std::uint32_t pass = 0, first = 0; pass < 13; ++pass) {

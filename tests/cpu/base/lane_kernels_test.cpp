@@ -4,16 +4,14 @@
 #include "core/kernel/methods/default.h"
 #include "cpu/paths/pass_setup.h"
 #include "tests/support/catch.hpp"
+#include "tests/support/same_bits.h"
 #include "tests/support/scenes/shapes.h"
 
 using namespace pl;
+using namespace pl::test;
 using test::Uniforms;
 
-namespace {
-
-bool same_bits(Vec4f a, Vec4f b) { return std::memcmp(&a, &b, sizeof a) == 0; }
-
-}  // namespace
+namespace {}  // namespace
 
 TEST_CASE("The baseline kernels are there and every usable set is named") {
     REQUIRE_FALSE(usable_lane_kernels().empty());

@@ -1,18 +1,16 @@
 // Guided directions sampled in SIMD lanes are bit-identical to those of the scalar code.
-#include <cstring>
 
 #include "cpu/paths/direction_block.h"
 #include "cpu/paths/vertex_block.h"
 #include "tests/support/catch.hpp"
 #include "tests/support/field/field_fixture.h"
 #include "tests/support/field/guided_methods.h"
+#include "tests/support/same_bits.h"
 
 using namespace pl;
 using namespace pl::test;
 
 namespace {
-
-bool same_bits(const DirectionSample& a, const DirectionSample& b) { return std::memcmp(&a, &b, sizeof a) == 0; }
 
 /// Unit normals over the whole sphere, including the axes.
 std::vector<Vec3f> all_around(int count, Uniforms& random) {

@@ -3,7 +3,7 @@
 
 #include "core/kernel/integrator/scatter.h"
 #include "core/kernel/methods/default.h"
-#include "tests/cpu/same_bits.h"
+#include "tests/support/same_bits.h"
 #include "tests/support/scenes/shapes.h"
 
 namespace pl::test {

@@ -105,7 +105,7 @@ TreeComparison compare_tree(const SceneView& scene, const ChoosesLights& method,
     return result;
 }
 
-constexpr std::uint32_t kVolumes = 20;
+constexpr std::uint32_t kTreeVolumes = 20;
 
 /// Densities of random lights for random points, of which most have a learned choice, in more groups than take turns at once.
 void compare_densities(const SceneView& scene, const ChoosesLights& method, const LaneKernels& kernels) {
@@ -119,7 +119,7 @@ void compare_densities(const SceneView& scene, const ChoosesLights& method, cons
             make_surface_point<kMany>(scene, light.primitive, Vec3f{1.0f / 3.0f}, Vec3f{0.0f, 1.0f, 0.0f});
         const Vec3f from = random_point(scene, random).surface.position;
         ChoosesLights::Vertex vertex;
-        if (random.below(3) != 0) vertex.volume = static_cast<std::int32_t>(random.below(kVolumes));
+        if (random.below(3) != 0) vertex.volume = static_cast<std::int32_t>(random.below(kTreeVolumes));
         const LearnedLights learned = method.learned_lights(vertex);
         LightHitGroup& group = hits[i / kGroupSize];
         group.from.set(i % kGroupSize, from);
@@ -147,13 +147,13 @@ TEST_CASE("Lights of a tree are sampled, and weighed where they are hit, as by o
             {.name = "metal", .kind = SurfaceKind::Conductor, .roughness = 0.5f, .specular = {0.9f, 0.8f, 0.7f}});
         const SceneView view = scene.view();
         REQUIRE_FALSE(view.light_tree.empty());
-        const std::vector<float> choices = random_choices(kVolumes, view.light_tree.clusters.count);
+        const std::vector<float> choices = random_choices(kTreeVolumes, view.light_tree.clusters.count);
         ChoosesLights method;
         method.field.light_cdf = {choices.data(), static_cast<std::uint32_t>(choices.size())};
         method.clusters = view.light_tree.clusters.count;
         for (const LaneKernels& kernels : usable_lane_kernels()) {
             INFO(kernels.isa << ", " << count << " lights");
-            const TreeComparison result = compare_tree(view, method, kVolumes, kernels);
+            const TreeComparison result = compare_tree(view, method, kTreeVolumes, kernels);
             CHECK(result.lit > 200);
             CHECK(result.layered > 30);
             CHECK(result.learned > 100);

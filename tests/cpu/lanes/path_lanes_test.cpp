@@ -6,6 +6,7 @@
 #include "tests/cpu/lanes/leaning_point.h"
 #include "tests/cpu/rays/random_rays.h"
 #include "tests/support/catch.hpp"
+#include "tests/support/same_bits.h"
 #include "tests/support/scenes/shapes.h"
 
 using namespace pl;
@@ -14,14 +15,11 @@ using namespace pl::test;
 namespace {
 
 using State = PathState<FeatureSet{}, DefaultMethod>;
-using Point = LeaningPoint;
 
-using pl::test::same_bits;
-bool same_bits(float a, float b) { return std::memcmp(&a, &b, sizeof a) == 0; }
 bool has(std::uint64_t bits, std::uint32_t i) { return ((bits >> i) & 1u) != 0; }
 
 /// The rows of one block, owned.
-struct Block {
+struct PathRows {
     RayGroup rays[kBlockGroups];
     HitGroup hits[kBlockGroups];
     PointGroup points[kBlockGroups];
@@ -60,17 +58,17 @@ HostScene scene_of_surfaces() {
     return pack_scene(scene);
 }
 
-struct Seen {
+struct Reached {
     int different = 0;
     int missed = 0, emitting = 0, black = 0, deepest = 0, leaning = 0;
 };
 
 template <FeatureSet F>
-Seen reach(const LaneKernels& kernels, const SceneView& scene) {
+Reached reach(const LaneKernels& kernels, const SceneView& scene) {
     constexpr std::uint32_t kMostVertices = 5;
-    const auto block = std::make_unique<Block>();
+    const auto block = std::make_unique<PathRows>();
     Uniforms random(2);
-    Seen seen;
+    Reached seen;
     for (int round = 0; round < 50; ++round) {
         for (std::uint32_t i = 0; i < kPathBlock; ++i) {
             const Ray ray{.origin = random.cube(-1.0f, 1.0f), .direction = random.direction()};
@@ -119,7 +117,7 @@ Seen reach(const LaneKernels& kernels, const SceneView& scene) {
 }
 
 /// Paths of any survival at surfaces of any albedo.
-void fill_for_roulette(Block& block, float* estimates, Uniforms& random) {
+void fill_for_roulette(PathRows& block, float* estimates, Uniforms& random) {
     for (std::uint32_t i = 0; i < kPathBlock; ++i) {
         const std::uint32_t lane = i % kGroupSize;
         PathGroup& paths = block.paths[i / kGroupSize];
@@ -145,7 +143,7 @@ struct Played {
 };
 
 Played play(const LaneKernels& kernels, const PathSettings& settings, bool with_estimates) {
-    const auto block = std::make_unique<Block>();
+    const auto block = std::make_unique<PathRows>();
     Uniforms random(3);
     Played played;
     for (int round = 0; round < 40; ++round) {
@@ -178,7 +176,7 @@ Played play(const LaneKernels& kernels, const PathSettings& settings, bool with_
     return played;
 }
 
-void set_vertex(VertexGroup& group, std::uint32_t lane, const Point& point) {
+void set_vertex(VertexGroup& group, std::uint32_t lane, const LeaningPoint& point) {
     group.position.set(lane, point.surface.position);
     group.geometric_normal.set(lane, point.surface.geometric_normal);
     group.shading_normal.set(lane, point.surface.shading_normal);
@@ -189,12 +187,12 @@ void set_vertex(VertexGroup& group, std::uint32_t lane, const Point& point) {
 
 /// Directions of any kind, some without a density.
 int different_scattered(const LaneKernels& kernels) {
-    const auto block = std::make_unique<Block>();
+    const auto block = std::make_unique<PathRows>();
     Uniforms random(4);
     int different = 0;
     for (int round = 0; round < 40; ++round) {
         DirectionGroup directions[kBlockGroups];
-        std::vector<Point> points;
+        std::vector<LeaningPoint> points;
         for (std::uint32_t i = 0; i < kPathBlock; ++i) {
             points.push_back(random_point(random));
             set_vertex(block->vertices[i / kGroupSize], i % kGroupSize, points.back());
@@ -228,7 +226,7 @@ int different_scattered(const LaneKernels& kernels) {
 
 /// Shadow rays of random lanes, block after block, and the place of each in the batch.
 int different_shadow_rays(const LaneKernels& kernels) {
-    const auto block = std::make_unique<Block>();
+    const auto block = std::make_unique<PathRows>();
     Uniforms random(5);
     int different = 0;
     for (int round = 0; round < 20; ++round) {
@@ -286,10 +284,10 @@ TEST_CASE("Every instruction set finds the vertices of the scalar code, bit for 
     const HostScene scene = scene_of_surfaces();
     for (const LaneKernels& kernels : usable_lane_kernels()) {
         INFO(kernels.isa);
-        const Seen flat = reach<FeatureSet{}>(kernels, scene.view());
+        const Reached flat = reach<FeatureSet{}>(kernels, scene.view());
         CHECK(flat.different == 0);
         CHECK(flat.leaning == 0);
-        const Seen smooth = reach<features(Feature::SmoothNormals)>(kernels, scene.view());
+        const Reached smooth = reach<features(Feature::SmoothNormals)>(kernels, scene.view());
         CHECK(smooth.different == 0);
         CHECK(smooth.leaning > 100);
         CHECK(smooth.missed > 100);

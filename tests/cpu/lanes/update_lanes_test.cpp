@@ -10,11 +10,11 @@ using namespace pl::test;
 namespace {
 
 constexpr LearningRate kRates[] = {LearningRate::SampleMean, LearningRate::Forgetful};
-constexpr std::uint32_t kVolumes = 9;
+constexpr std::uint32_t kUpdatedVolumes = 9;
 
 void update_in_lanes(const LaneKernels& kernels, TestField& field, bool skips) {
     const TableUpdateView view = field.update_view();
-    for (std::uint32_t volume = 0; volume < kVolumes; ++volume)
+    for (std::uint32_t volume = 0; volume < kUpdatedVolumes; ++volume)
         if (!skips || has_new_samples(kernels, view, volume)) update_volume_in_lanes(kernels, view, volume);
 }
 
@@ -26,7 +26,7 @@ void check_field(const LaneKernels& kernels, const TestField& start, Uniforms& r
     scalar.update();
     REQUIRE(same_tables(scalar.tables, lanes.tables));
     for (int round = 0; round < 2; ++round) {
-        for (std::size_t volume = 0; volume < kVolumes; volume += 1 + random.below(3))
+        for (std::size_t volume = 0; volume < kUpdatedVolumes; volume += 1 + random.below(3))
             add_any_samples(scalar.tables, volume, 1 + random.below(300), random);
         lanes.tables = scalar.tables;
         update_in_lanes(kernels, lanes, true);
@@ -45,7 +45,7 @@ TEST_CASE("Every instruction set updates tables to the bits of the scalar update
                 for (const int side : {1, 2, 3, 4, 8, 12, 15, 16, 24, 32}) {
                     INFO(kernels.isa << ", side " << side << ", floor " << floor << ", rate "
                                      << static_cast<int>(rate));
-                    TestField field = any_field(side, kVolumes, random);
+                    TestField field = any_field(side, kUpdatedVolumes, random);
                     field.shape.rate = rate;
                     field.shape.uniform_floor = floor;
                     field.shape.radiance_unit = std::exp2(static_cast<float>(random.below(40)) - 20.0f);

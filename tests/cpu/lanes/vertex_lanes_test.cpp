@@ -1,11 +1,11 @@
 // Paths that are scattered in SIMD lanes go where those of the scalar code go, bit for bit, by every instruction set.
-#include <cstring>
 
 #include "core/kernel/methods/default.h"
 #include "cpu/base/lane_kernels.h"
 #include "cpu/paths/vertex_block.h"
 #include "tests/cpu/lanes/leaning_point.h"
 #include "tests/support/catch.hpp"
+#include "tests/support/same_bits.h"
 #include "tests/support/scenes/shapes.h"
 
 using namespace pl;
@@ -13,27 +13,23 @@ using namespace pl::test;
 
 namespace {
 
-using Point = LeaningPoint;
-using Block = VertexBlock<FeatureSet{}, DefaultMethod>;
+using LeaningBlock = VertexBlock<FeatureSet{}, DefaultMethod>;
 
-using pl::test::same_bits;
-bool same_bits(const DirectionSample& a, const DirectionSample& b) { return std::memcmp(&a, &b, sizeof a) == 0; }
-
-struct Comparison {
+struct Scattering {
     int different = 0;
     int black = 0;
 };
 
-Comparison compare(const LaneKernels& kernels) {
+Scattering compare_vertices(const LaneKernels& kernels) {
     const DefaultMethod method;
-    Block block;
+    LeaningBlock block;
     DirectionGroup directions[kBlockGroups];
     ScatteredGroup scattered[kBlockGroups];
     Uniforms random(11);
-    Comparison result;
+    Scattering result;
     for (int round = 0; round < 40; ++round) {
         block.clear();
-        std::vector<Point> points;
+        std::vector<LeaningPoint> points;
         std::vector<Vec4f> numbers;
         for (std::uint32_t i = 0; i < kPathBlock; ++i) {
             points.push_back(random_point(random));
@@ -69,7 +65,7 @@ Comparison compare(const LaneKernels& kernels) {
 TEST_CASE("Every instruction set scatters paths as the scalar code does, bit for bit") {
     for (const LaneKernels& kernels : usable_lane_kernels()) {
         INFO(kernels.isa);
-        const Comparison result = compare(kernels);
+        const Scattering result = compare_vertices(kernels);
         CHECK(result.different == 0);
         CHECK(result.black > 300);
     }

@@ -24,10 +24,11 @@ struct KeepsEstimates : DefaultMethod {
     void record_light(const Light&, bool) const {}
 };
 using Context = PathContext<KeepsEstimates>;
-using Point = ScatterPoint<kLights, KeepsEstimates>;
+using LitPoint = ScatterPoint<kLights, KeepsEstimates>;
 
 /// The light sample of one path alone, weighed.
-ShadowRequest<KeepsEstimates> request_alone(const Context& context, const Point& point, Vec4f u, Vec3f throughput) {
+ShadowRequest<KeepsEstimates> request_alone(const Context& context, const LitPoint& point, Vec4f u,
+                                            Vec3f throughput) {
     PathState<kLights, KeepsEstimates> state;
     state.throughput = throughput;
     ShadowRequest<KeepsEstimates> shadow;
@@ -35,7 +36,7 @@ ShadowRequest<KeepsEstimates> request_alone(const Context& context, const Point&
     return shadow;
 }
 
-bool same_light(const LightBlock<kLights, KeepsEstimates>& block, std::uint32_t i, const Point& point,
+bool same_light(const LightBlock<kLights, KeepsEstimates>& block, std::uint32_t i, const LitPoint& point,
                 const ShadowRequest<KeepsEstimates>& alone) {
     if (block.is_wanted(i) != alone.wanted) return false;
     if (!alone.wanted) return true;
@@ -75,7 +76,7 @@ Comparison compare(const Context& context, const LaneKernels& kernels) {
     Uniforms random(5);
     for (std::uint32_t size = 0; size <= kPathBlock; ++size) {
         block->clear();
-        std::vector<Point> points;
+        std::vector<LitPoint> points;
         std::vector<ShadowRequest<KeepsEstimates>> expected;
         for (std::uint32_t i = 0; i < size; ++i) {
             const RoomPoint at = random_point(context.scene, random);

@@ -12,18 +12,14 @@
 #include "tests/cpu/small_room.h"
 #include "tests/support/catch.hpp"
 #include "tests/support/field/guided_methods.h"
+#include "tests/support/same_bits.h"
 
 using namespace pl;
 using namespace pl::test;
 
 namespace {
 
-constexpr FeatureSet kLights = FeatureSet{}.with(Feature::NextEventEstimation);
-
-template <class T, class Allocator>
-bool same_bits(const std::vector<T, Allocator>& a, const std::vector<T, Allocator>& b) {
-    return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
-}
+constexpr FeatureSet kLightSamples = FeatureSet{}.with(Feature::NextEventEstimation);
 
 bool same_counters(const PassCounters& a, const PassCounters& b) {
     static_assert(std::has_unique_object_representations_v<PassCounters>);
@@ -151,7 +147,7 @@ void check_method(MethodId method) {
     const Room closed;
     const Room open(open_room());
     check_effects<FeatureSet{}, M>(closed, method, {FeatureSet{}, false});
-    check_effects<kLights, M>(closed, method, {kLights, true});
+    check_effects<kLightSamples, M>(closed, method, {kLightSamples, true});
     for (const bool next_event : {false, true})
         check_effects<kPlainFeatures, M>(open, method, {kPlainFeatures, next_event});
 }
@@ -171,13 +167,13 @@ TEST_CASE("Batches of probes equal single probes") {
     HostTables expected = room.empty_tables();
     const TableField field = field_view(room.shape, *room.volumes, expected);
     const SceneView scene = room.scene->view();
-    PathSettings settings = path_settings({kLights, true});
+    PathSettings settings = path_settings({kLightSamples, true});
     settings.stream = Stream::Precompute;
     PassCounters counters;
     for (std::uint32_t probe = 0; probe < field.normals.count * 16; ++probe) {
-        auto state = begin_probe<kLights>(field, settings, probe, {.index = 2, .strata_side = 4});
-        trace_path<kLights>(PathContext<ProbeMethod>{scene, ProbeMethod{}, settings}, BvhIntersector{scene}, state,
-                            counters.path);
+        auto state = begin_probe<kLightSamples>(field, settings, probe, {.index = 2, .strata_side = 4});
+        trace_path<kLightSamples>(PathContext<ProbeMethod>{scene, ProbeMethod{}, settings}, BvhIntersector{scene},
+                                  state, counters.path);
         finish_probe(field, state, counters.path.method);
         count_path(counters, state.radiance, true);
     }
@@ -186,7 +182,7 @@ TEST_CASE("Batches of probes equal single probes") {
             const auto backend = make_backend(room, {.threads = threads, .batch_paths = batch});
             backend->upload_field(MethodId::Precomputed, room.empty_tables());
             const PassCounters result =
-                backend->precompute({.features = kLights, .path = settings, .sample = 2, .strata_side = 4});
+                backend->precompute({.features = kLightSamples, .path = settings, .sample = 2, .strata_side = 4});
             const HostTables tables = tables_of(backend->download_field(MethodId::Precomputed));
             CHECK(same_counters(counters, result));
             CHECK(same_bits(expected.pending_sum, tables.pending_sum));

@@ -13,7 +13,7 @@ using namespace pl::test;
 
 namespace {
 
-constexpr std::uint32_t kRays = 4096;
+constexpr std::uint32_t kDenseRays = 4096;
 
 void add_random_triangles(SceneDescription& scene, int count, std::uint64_t seed) {
     Uniforms random(seed);
@@ -34,18 +34,10 @@ void add_grid_triangles(SceneDescription& scene, int count, std::uint64_t seed) 
     }
 }
 
-struct NamedScene {
-    std::string name;
-    HostScene scene;
-};
-
 std::vector<NamedScene> small_scenes() {
     std::vector<NamedScene> scenes;
-    const auto add = [&](const std::string& name, auto&& build) {
-        SceneDescription description;
-        description.materials.push_back(gray());
-        build(description);
-        scenes.push_back({name, pack_scene(description)});
+    const auto add = [&](const std::string& name, const std::function<void(SceneDescription&)>& build) {
+        scenes.push_back({name, gray_scene(build)});
     };
     for (const int count : {1, 2, 7, 36, 64})
         add("random " + std::to_string(count), [&](auto& s) { add_random_triangles(s, count, 11); });
@@ -81,10 +73,10 @@ struct Seen {
 
 template <BatchIntersector I>
 Seen check_all_rays(const HostScene& scene, const I& intersector) {
-    const std::vector<Ray> rays = random_rays(scene.view(), kRays, 21);
+    const std::vector<Ray> rays = random_rays(scene.view(), kDenseRays, 21);
     const RayBatch batch = find_all(intersector, rays);
     Seen seen;
-    for (std::uint32_t i = 0; i < kRays; ++i) {
+    for (std::uint32_t i = 0; i < kDenseRays; ++i) {
         INFO("ray " << i);
         const Hit expected = closest_hit_by_all(scene.view(), rays[i]);
         REQUIRE(same_bits(batch.hit(i), expected));
@@ -122,7 +114,7 @@ TEST_CASE("Test rays run exactly through edges") {
     std::vector<NamedScene> scenes = small_scenes();
     const auto grid = std::find_if(scenes.begin(), scenes.end(), [](auto& s) { return s.name == "grid"; });
     int zeros = 0;
-    for (const Ray& ray : random_rays(grid->scene.view(), kRays, 21)) {
+    for (const Ray& ray : random_rays(grid->scene.view(), kDenseRays, 21)) {
         const ScalarRaySpace space = make_ray_space(ray);
         for (const Triangle& t : grid->scene.triangles) {
             const auto in_ray_space = [&](std::uint32_t vertex) {

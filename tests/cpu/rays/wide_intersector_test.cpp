@@ -15,22 +15,10 @@ using namespace pl::test;
 
 namespace {
 
-HostScene scene_of(const std::function<void(SceneDescription&)>& build) {
-    SceneDescription description;
-    description.materials.push_back(gray());
-    build(description);
-    return pack_scene(description);
-}
-
-struct NamedScene {
-    std::string name;
-    HostScene scene;
-};
-
 std::vector<NamedScene> hard_scenes() {
     std::vector<NamedScene> scenes;
     const auto add = [&](const std::string& name, const std::function<void(SceneDescription&)>& build) {
-        scenes.push_back({name, scene_of(build)});
+        scenes.push_back({name, gray_scene(build)});
     };
     for (const NamedShape& shape : hard_shapes())
         add(shape.name, [&](SceneDescription& s) {
@@ -170,7 +158,7 @@ TEST_CASE("Blocks of leaves hold their triangles in order, the last one repeated
 }
 
 TEST_CASE("A wide node has more than five children in the mean") {
-    const HostScene scene = scene_of([](auto& s) { add_spiky_sphere(s, 64, 64, 1.0f, 1.5f, 3); });
+    const HostScene scene = gray_scene([](auto& s) { add_spiky_sphere(s, 64, 64, 1.0f, 1.5f, 3); });
     const std::vector<WideNode> nodes = make_wide_nodes(scene.view().bvh);
     double children = 0.0;
     for (const WideNode& node : nodes) children += std::popcount(node.child_bits);
@@ -178,7 +166,7 @@ TEST_CASE("A wide node has more than five children in the mean") {
 }
 
 TEST_CASE("Rays without a direction or with components that are no numbers hit nothing in the wide hierarchy") {
-    const HostScene scene = scene_of([](auto& s) { add_spiky_sphere(s, 12, 12, 1.0f, 2.0f, 3); });
+    const HostScene scene = gray_scene([](auto& s) { add_spiky_sphere(s, 12, 12, 1.0f, 2.0f, 3); });
     constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
     const std::vector<Ray> rays{{.direction = Vec3f{0.0f}},
                                 {.direction = {kNan, 1, 0}},
@@ -207,7 +195,7 @@ TEST_CASE("The wide hierarchy of an empty scene is missed") {
 }
 
 TEST_CASE("The wide hierarchy follows a scene whose arrays move") {
-    const HostScene scene = scene_of([](auto& s) { add_spiky_sphere(s, 12, 12, 1.0f, 2.0f, 3); });
+    const HostScene scene = gray_scene([](auto& s) { add_spiky_sphere(s, 12, 12, 1.0f, 2.0f, 3); });
     auto copy = std::make_unique<HostScene>(scene);
     WideIntersector wide(copy->view());
     wide.move_to(scene.view());

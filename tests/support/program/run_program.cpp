@@ -82,6 +82,11 @@ std::vector<std::string> TempDir::names() const {
     return result;
 }
 
+Arguments joined(Arguments arguments, const Arguments& more) {
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return arguments;
+}
+
 Arguments program(const Arguments& arguments) {
     Arguments command{PL_PROGRAM};
     command.insert(command.end(), arguments.begin(), arguments.end());

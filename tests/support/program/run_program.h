@@ -36,6 +36,8 @@ struct ProgramResult {
 
 using Arguments = std::vector<std::string>;
 
+Arguments joined(Arguments arguments, const Arguments& more);
+
 /// The built program's path, and its arguments.
 Arguments program(const Arguments& arguments);
 

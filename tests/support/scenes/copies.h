@@ -4,10 +4,14 @@
 #include <algorithm>
 #include <limits>
 
+#include "core/io/load_scene.h"
 #include "core/scene/instances.h"
 #include "tests/support/catch.hpp"
 
 namespace pl::test {
+
+/// Keeps every instance.
+inline const LoadSettings kKeepInstances{.most_copied_triangles = 0};
 
 /// A scene with copies in the place of its instances, which have to be valid.
 inline SceneDescription expanded(SceneDescription scene) {

@@ -3,10 +3,13 @@
 
 #include <cmath>
 #include <cstdint>
+#include <functional>
+#include <string>
 
 #include "core/kernel/base/frame.h"
 #include "core/kernel/base/rng.h"
 #include "core/scene/pack_scene.h"
+#include "tests/support/numbers.h"
 
 namespace pl::test {
 
@@ -54,12 +57,30 @@ private:
     Philox block_{};
 };
 
+inline MaterialDescription with_albedo(MaterialDescription material, float albedo) {
+    material.albedo = glm::vec3{albedo};
+    return material;
+}
+
 /// Gray, not emitting.
 inline MaterialDescription gray(float albedo = 0.5f) {
     MaterialDescription material;
     material.name = "gray";
-    material.albedo = glm::vec3{albedo};
-    return material;
+    return with_albedo(material, albedo);
+}
+
+/// A scene, and its name in messages.
+struct NamedScene {
+    std::string name;
+    HostScene scene;
+};
+
+/// A scene of gray triangles.
+inline HostScene gray_scene(const std::function<void(SceneDescription&)>& build) {
+    SceneDescription description;
+    description.materials.push_back(gray());
+    build(description);
+    return pack_scene(description);
 }
 
 inline std::uint32_t add_vertex(SceneDescription& scene, Vec3f position) {
@@ -114,7 +135,6 @@ inline void add_spiky_sphere(SceneDescription& scene, int rings, int segments, f
         return add_vertex(scene, Vec3f{Vec3d{radius * std::sin(theta) * std::cos(phi), radius * std::cos(theta),
                                              radius * std::sin(theta) * std::sin(phi)}});
     };
-    constexpr double kTurn = 6.283185307179586;
     const std::uint32_t top = vertex(0.0, 0.0);
     const auto first = static_cast<std::uint32_t>(scene.positions.size());
     for (int ring = 1; ring < rings; ++ring)

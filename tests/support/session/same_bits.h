@@ -3,14 +3,10 @@
 
 #include <cstring>
 
+#include "tests/support/same_bits.h"
 #include "tests/support/session/sessions.h"
 
 namespace pl::test {
-
-template <class T, class Allocator>
-bool same_bits(const std::vector<T, Allocator>& a, const std::vector<T, Allocator>& b) {
-    return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
-}
 
 /// Every array, so that a new one is compared as well.
 template <class Arrays>
@@ -59,6 +55,11 @@ inline State state_of(Session& session, FilmSlot slot) {
     return state;
 }
 inline State state_of(Session& session) { return state_of(session, slot_of(session)); }
+
+inline State state_after(Session session, std::uint32_t passes) {
+    render_passes(session, passes);
+    return state_of(session);
+}
 
 inline bool same_film(const State& a, const State& b) {
     const FilmHalves& x = a.snapshot.halves;

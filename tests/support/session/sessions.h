@@ -27,6 +27,11 @@ inline constexpr std::array kEstimators{
     Estimator{MethodId::Precomputed, false},   Estimator{MethodId::Precomputed, true},
     Estimator{MethodId::Reinforcement, false}, Estimator{MethodId::Reinforcement, true}};
 
+/// What tests of learning render.
+inline constexpr MethodId kLearner = MethodId::Reinforcement;
+inline constexpr Estimator kLearningPaths{kLearner, false};
+inline constexpr FilmSlot kLearningFilm{kLearner, View::Beauty};
+
 inline RenderSettings settings_for(const SceneDescription& scene, Estimator estimator, int width, int height) {
     RenderSettings settings;
     settings.method = estimator.method;

@@ -14,6 +14,21 @@ inline RenderSettings small_settings(const SceneDescription& scene, Estimator es
     return settings;
 }
 
+/// The smallest picture here, for tests of many sessions.
+inline RenderSettings tiny_settings(const SceneDescription& scene, bool next_event) {
+    return small_settings(scene, {MethodId::Default, next_event}, 40, 30);
+}
+
+inline constexpr std::uint32_t kUsedPasses = 2;
+
+/// A session in which every method has rendered, and precomputed or learned.
+inline Session used_session(const SceneDescription& scene, const RenderSettings& settings,
+                            const std::shared_ptr<RenderBackend>& backend = make_cpu_backend({.threads = 2})) {
+    Session session(backend, std::make_shared<const SceneDescription>(scene), settings);
+    for (const MethodInfo& method : all_methods()) render_passes(session, {method.id, View::Beauty}, kUsedPasses);
+    return session;
+}
+
 /// Settings by which guided paths are those of the baseline, at a higher cost, so that guiding is given up: all directions by
 /// the BSDF, roulette by the albedo.
 inline RenderSettings settings_without_gain(const SceneDescription& scene, MethodId method) {

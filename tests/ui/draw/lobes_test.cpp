@@ -16,7 +16,7 @@ using namespace pl::test;
 
 namespace {
 
-const Rect kImage{0.0f, 0.0f, 400.0f, 400.0f};
+const Rect kLobeImage{0.0f, 0.0f, 400.0f, 400.0f};
 
 CameraDescription from(Vec3f eye, Vec3f target = Vec3f{0.0f}) {
     CameraDescription camera;
@@ -26,7 +26,7 @@ CameraDescription from(Vec3f eye, Vec3f target = Vec3f{0.0f}) {
     return camera;
 }
 
-Projection projection_from(Vec3f eye) { return Projection(from(eye), 400, 400, kImage); }
+Projection projection_from(Vec3f eye) { return Projection(from(eye), 400, 400, kLobeImage); }
 
 LobeGlyph glyph_of(const std::vector<float>& cells, int side) {
     return {.position = Vec3f{0.0f},
@@ -141,7 +141,7 @@ TEST_CASE("Flowers: those that are away, outside or hidden cost no triangle, and
     // Close above the middle of the meadow, where flowers are large: fine ones are limited.
     FlowerCounts counts;
     const ScreenMesh mesh = flower_mesh(
-        field, scene.view(), Projection(from({0.0f, 1.5f, 9.5f}, {0.0f, 0.0f, -4.0f}), 400, 400, kImage), counts);
+        field, scene.view(), Projection(from({0.0f, 1.5f, 9.5f}, {0.0f, 0.0f, -4.0f}), 400, 400, kLobeImage), counts);
     CHECK(counts.away >= 1);
     CHECK(counts.outside > 0);
     CHECK(counts.away + counts.outside + counts.hidden + counts.drawn == field.flowers.size());
@@ -152,19 +152,19 @@ TEST_CASE("Flowers: those that are away, outside or hidden cost no triangle, and
 
     // From afar all are seen, and all are coarse.
     FlowerCounts far;
-    (void)flower_mesh(field, scene.view(), Projection(from({0.0f, 60.0f, 1.0f}), 400, 400, kImage), far);
+    (void)flower_mesh(field, scene.view(), Projection(from({0.0f, 60.0f, 1.0f}), 400, 400, kLobeImage), far);
     CHECK(far.drawn > 1800);
     CHECK(far.hidden > 0);  // below the light of the small scene
     CHECK(far.triangles <= far.drawn * 32);
 
     FlowerCounts from_below;
-    CHECK(flower_mesh(field, scene.view(), Projection(from({0.0f, -20.0f, 1.0f}), 400, 400, kImage), from_below)
+    CHECK(flower_mesh(field, scene.view(), Projection(from({0.0f, -20.0f, 1.0f}), 400, 400, kLobeImage), from_below)
               .triangles() == 0);
     CHECK(from_below.away + 1 == field.flowers.size());
 }
 
 TEST_CASE("Projection: a sphere is shown if any of it may be in the picture") {
-    const Projection projection(from({0.0f, 0.0f, 5.0f}), 400, 400, kImage);
+    const Projection projection(from({0.0f, 0.0f, 5.0f}), 400, 400, kLobeImage);
     CHECK(projection.may_show({0.0f, 0.0f, 0.0f}, 0.1f));
     CHECK_FALSE(projection.may_show({50.0f, 0.0f, 0.0f}, 0.1f));
     CHECK(projection.may_show({50.0f, 0.0f, 0.0f}, 60.0f));

@@ -20,9 +20,9 @@ CameraDescription straight_camera() {
     return camera;
 }
 
-const Rect kImage{10.0f, 20.0f, 100.0f, 100.0f};
+const Rect kPathImage{10.0f, 20.0f, 100.0f, 100.0f};
 
-Projection straight() { return Projection(straight_camera(), 100, 100, kImage); }
+Projection straight() { return Projection(straight_camera(), 100, 100, kPathImage); }
 
 /// From the camera to the floor, and from there out of the scene, with a visible light sample on the way.
 diagnose::PathRecord some_path() {

@@ -13,16 +13,16 @@ namespace {
 
 const ToneTable kTable(ToneCurve::Clamp);
 
-std::uint32_t gray(std::uint32_t code) { return 0xff000000u | code << 16 | code << 8 | code; }
+std::uint32_t gray_code(std::uint32_t code) { return 0xff000000u | code << 16 | code << 8 | code; }
 
 /// As a back end hands it over.
-DisplayFrame frame_of(int width, int height, const std::vector<Vec3f>& values) {
+DisplayFrame frame_with(int width, int height, const std::vector<Vec3f>& values) {
     const auto pixels = std::make_shared<std::vector<std::uint32_t>>();
     for (const Vec3f& value : values) pixels->push_back(frame_pixel(value, {}, kTable.view()));
     return {width, height, [pixels] { return pixels->data(); }};
 }
-DisplayFrame frame_of(int width, int height, Vec3f value) {
-    return frame_of(width, height, std::vector<Vec3f>(static_cast<std::size_t>(width * height), value));
+DisplayFrame frame_with(int width, int height, Vec3f value) {
+    return frame_with(width, height, std::vector<Vec3f>(static_cast<std::size_t>(width * height), value));
 }
 
 }  // namespace
@@ -32,11 +32,11 @@ TEST_CASE("Picture: rows respect the pitch") {
     values[4].y = kNan;
     constexpr std::uint32_t kUntouched = 0x12345678u;
     std::vector<std::uint32_t> out(2 * 5, kUntouched);
-    write_picture(frame_of(3, 2, values), {}, out.data(), 5);
-    CHECK(out[0] == gray(kTable(0.25f)));
-    CHECK(out[2] == gray(kTable(0.25f)));
+    write_picture(frame_with(3, 2, values), {}, out.data(), 5);
+    CHECK(out[0] == gray_code(kTable(0.25f)));
+    CHECK(out[2] == gray_code(kTable(0.25f)));
     CHECK(out[3] == kUntouched);
-    CHECK(out[5] == gray(kTable(0.25f)));
+    CHECK(out[5] == gray_code(kTable(0.25f)));
     CHECK(out[6] == kInvalidPixel);
     CHECK(out[9] == kUntouched);
 }
@@ -45,24 +45,24 @@ TEST_CASE("Picture: cells are blended by opacity and the selected one is outline
     std::vector<Vec3f> cells(30, color_of_id(1));
     for (std::size_t y = 1; y < 4; ++y)
         for (std::size_t x = 1; x < 4; ++x) cells[y * 6 + x] = color_of_id(2);
-    const CellImage image = make_cell_image(frame_of(6, 5, cells));
+    const CellImage image = make_cell_image(frame_with(6, 5, cells));
     CHECK(image.argb[0] == cell_color(1, kTable.view()));
     CHECK(cell_color(1, kTable.view()) != cell_color(2, kTable.view()));
 
-    const DisplayFrame black = frame_of(6, 5, Vec3f{0.0f});
+    const DisplayFrame black = frame_with(6, 5, Vec3f{0.0f});
     std::vector<std::uint32_t> out(30);
     write_picture(black, {&image, 1.0f, std::nullopt}, out.data(), 6);
     CHECK(out == image.argb);
     write_picture(black, {&image, 0.0f, std::nullopt}, out.data(), 6);
-    CHECK(out == std::vector<std::uint32_t>(30, gray(0)));
+    CHECK(out == std::vector<std::uint32_t>(30, gray_code(0)));
 
     CellImage tint = image;
     tint.argb.assign(30, 0xff102030u);
     write_picture(black, {&image, 1.0f, std::nullopt, &tint}, out.data(), 6);
     CHECK(out == tint.argb);
 
-    write_picture(frame_of(6, 5, Vec3f{0.25f}), {&image, 0.0f, cell_color(2, kTable.view())}, out.data(), 6);
-    const std::uint32_t plain = gray(kTable(0.25f));
+    write_picture(frame_with(6, 5, Vec3f{0.25f}), {&image, 0.0f, cell_color(2, kTable.view())}, out.data(), 6);
+    const std::uint32_t plain = gray_code(kTable(0.25f));
     CHECK(out[1 * 6 + 1] == 0xffffffffu);  // border of the cell
     CHECK(out[2 * 6 + 2] == plain);        // its inside
     CHECK(out[0 * 6 + 1] == 0xff000000u);  // around it
@@ -70,10 +70,10 @@ TEST_CASE("Picture: cells are blended by opacity and the selected one is outline
 }
 
 TEST_CASE("Picture: cells of another size are not laid over") {
-    const CellImage image = make_cell_image(frame_of(2, 2, color_of_id(1)));
+    const CellImage image = make_cell_image(frame_with(2, 2, color_of_id(1)));
     std::vector<std::uint32_t> out(6);
-    write_picture(frame_of(3, 2, Vec3f{0.0f}), {&image, 1.0f, cell_color(1, kTable.view())}, out.data(), 3);
-    CHECK(out == std::vector<std::uint32_t>(6, gray(0)));
+    write_picture(frame_with(3, 2, Vec3f{0.0f}), {&image, 1.0f, cell_color(1, kTable.view())}, out.data(), 3);
+    CHECK(out == std::vector<std::uint32_t>(6, gray_code(0)));
 }
 
 TEST_CASE("Picture: exposure and curve are for radiance only") {

@@ -12,25 +12,25 @@ using namespace pl::ui;
 
 namespace {
 
-constexpr Rect kView{100.0f, 50.0f, 640.0f, 400.0f};
-constexpr int kWidth = 320;
-constexpr int kHeight = 240;
+constexpr Rect kZoomedView{100.0f, 50.0f, 640.0f, 400.0f};
+constexpr int kZoomedWidth = 320;
+constexpr int kZoomedHeight = 240;
 
 PictureZoom zoomed(int notches, Vec2f pointer) {
     PictureZoom zoom;
-    zoom.step(notches, pointer, kView, kWidth, kHeight);
+    zoom.step(notches, pointer, kZoomedView, kZoomedWidth, kZoomedHeight);
     return zoom;
 }
 
 }  // namespace
 
 TEST_CASE("Zoom: whole, the picture is where it fits") {
-    const Rect fit = place_image(kView, kWidth, kHeight);
-    const Rect place = PictureZoom{}.place(kView, kWidth, kHeight);
+    const Rect fit = place_image(kZoomedView, kZoomedWidth, kZoomedHeight);
+    const Rect place = PictureZoom{}.place(kZoomedView, kZoomedWidth, kZoomedHeight);
     CHECK(place.x == fit.x);
     CHECK(place.width == fit.width);
     PictureZoom zoom;
-    zoom.pan({50.0f, 50.0f}, kWidth, kHeight);
+    zoom.pan({50.0f, 50.0f}, kZoomedWidth, kZoomedHeight);
     CHECK(zoom == PictureZoom{});
 }
 
@@ -38,73 +38,73 @@ TEST_CASE("Zoom: the point under the pointer stays, and pixels are whole multipl
     for (const Vec2f pointer : {Vec2f{420.0f, 250.0f}, Vec2f{200.0f, 100.0f}, Vec2f{600.0f, 420.0f}}) {
         PictureZoom zoom;
         for (int i = 0; i < 12; ++i) {
-            const Vec2f before = picture_point(zoom.place(kView, kWidth, kHeight), pointer);
-            zoom.step(1, pointer, kView, kWidth, kHeight);
-            const Rect place = zoom.place(kView, kWidth, kHeight);
+            const Vec2f before = picture_point(zoom.place(kZoomedView, kZoomedWidth, kZoomedHeight), pointer);
+            zoom.step(1, pointer, kZoomedView, kZoomedWidth, kZoomedHeight);
+            const Rect place = zoom.place(kZoomedView, kZoomedWidth, kZoomedHeight);
             CHECK(zoom.scale() == std::round(zoom.scale()));
-            CHECK(place.width == zoom.scale() * kWidth);
+            CHECK(place.width == zoom.scale() * kZoomedWidth);
             CHECK(place.x == std::round(place.x));
             // Rounding of the place to window pixels, in every step.
             const Vec2f off = (picture_point(place, pointer) - before) * Vec2f{place.width, place.height};
             CHECK(std::max(std::fabs(off.x), std::fabs(off.y)) <= 1.0f);
         }
         CHECK(zoom.scale() == 96.0f);
-        zoom.step(99, pointer, kView, kWidth, kHeight);
+        zoom.step(99, pointer, kZoomedView, kZoomedWidth, kZoomedHeight);
         CHECK(zoom.scale() == PictureZoom::kLargest);
-        zoom.step(-99, pointer, kView, kWidth, kHeight);
+        zoom.step(-99, pointer, kZoomedView, kZoomedWidth, kZoomedHeight);
         CHECK(zoom.is_whole());
     }
 }
 
 TEST_CASE("Zoom: a picture larger than the view goes through 1:1, and its key toggles") {
     PictureZoom zoom;
-    zoom.step(1, kView.center(), kView, 2000, 1500);
+    zoom.step(1, kZoomedView.center(), kZoomedView, 2000, 1500);
     CHECK(zoom.scale() == 1.0f);
-    zoom.step(1, kView.center(), kView, 2000, 1500);
+    zoom.step(1, kZoomedView.center(), kZoomedView, 2000, 1500);
     CHECK(zoom.scale() == 2.0f);
-    zoom.toggle(kView.center(), kView, 2000, 1500);
+    zoom.toggle(kZoomedView.center(), kZoomedView, 2000, 1500);
     CHECK(zoom.is_whole());
-    zoom.toggle(kView.center(), kView, 2000, 1500);
+    zoom.toggle(kZoomedView.center(), kZoomedView, 2000, 1500);
     CHECK(zoom.scale() == 1.0f);
     PictureZoom small;  // shown larger than 1:1 already
-    small.toggle(kView.center(), kView, 64, 64);
-    CHECK(small.scale() > place_image(kView, 64, 64).width / 64.0f);
+    small.toggle(kZoomedView.center(), kZoomedView, 64, 64);
+    CHECK(small.scale() > place_image(kZoomedView, 64, 64).width / 64.0f);
 }
 
 TEST_CASE("Zoom: panning moves the picture with the pointer and keeps it in reach") {
-    PictureZoom zoom = zoomed(6, kView.center());
-    const Rect before = zoom.place(kView, kWidth, kHeight);
-    zoom.pan({31.0f, -17.0f}, kWidth, kHeight);
-    const Rect after = zoom.place(kView, kWidth, kHeight);
+    PictureZoom zoom = zoomed(6, kZoomedView.center());
+    const Rect before = zoom.place(kZoomedView, kZoomedWidth, kZoomedHeight);
+    zoom.pan({31.0f, -17.0f}, kZoomedWidth, kZoomedHeight);
+    const Rect after = zoom.place(kZoomedView, kZoomedWidth, kZoomedHeight);
     CHECK(std::fabs(after.x - before.x - 31.0f) <= 1.0f);
     CHECK(std::fabs(after.y - before.y + 17.0f) <= 1.0f);
-    zoom.pan({1.0e6f, 1.0e6f}, kWidth, kHeight);
-    CHECK(common_part(zoom.place(kView, kWidth, kHeight), kView).width > 0.0f);
+    zoom.pan({1.0e6f, 1.0e6f}, kZoomedWidth, kZoomedHeight);
+    CHECK(common_part(zoom.place(kZoomedView, kZoomedWidth, kZoomedHeight), kZoomedView).width > 0.0f);
 }
 
 TEST_CASE("Zoom: pixels, window points and the projection of the scene agree") {
     CameraDescription camera;
     camera.eye = {3.0f, 2.0f, 5.0f};
     camera.target = {-1.0f, 0.5f, -2.0f};
-    const Camera pinhole = make_camera(camera, kWidth, kHeight);
+    const Camera pinhole = make_camera(camera, kZoomedWidth, kZoomedHeight);
     for (const int notches : {0, 1, 3, 7, 12}) {
         PictureZoom zoom = zoomed(notches, {300.0f, 300.0f});
-        zoom.pan({13.0f, 7.0f}, kWidth, kHeight);
-        const Rect image = zoom.place(kView, kWidth, kHeight);
-        const Projection projection(camera, kWidth, kHeight, image);
-        for (int y = 0; y < kHeight; y += 17)
-            for (int x = 0; x < kWidth; x += 13) {
-                const Rect place = pixel_place(image, {x, y}, kWidth, kHeight);
-                CHECK(pixel_under(image, place.center(), kWidth, kHeight) == PixelPosition{x, y});
+        zoom.pan({13.0f, 7.0f}, kZoomedWidth, kZoomedHeight);
+        const Rect image = zoom.place(kZoomedView, kZoomedWidth, kZoomedHeight);
+        const Projection projection(camera, kZoomedWidth, kZoomedHeight, image);
+        for (int y = 0; y < kZoomedHeight; y += 17)
+            for (int x = 0; x < kZoomedWidth; x += 13) {
+                const Rect place = pixel_place(image, {x, y}, kZoomedWidth, kZoomedHeight);
+                CHECK(pixel_under(image, place.center(), kZoomedWidth, kZoomedHeight) == PixelPosition{x, y});
                 const Vec2f film{static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f};
-                const Vec2f clicked = picture_point(image, place.center()) * Vec2f{kWidth, kHeight};
+                const Vec2f clicked = picture_point(image, place.center()) * Vec2f{kZoomedWidth, kZoomedHeight};
                 CHECK(glm::length(clicked - film) < 1.0e-2f);
                 // What a ray of the pixel meets is drawn over the pixel.
-                const Ray ray = generate_ray(pinhole, film, {kWidth, kHeight});
+                const Ray ray = generate_ray(pinhole, film, {kZoomedWidth, kZoomedHeight});
                 const auto drawn = projection(ray.origin + 5.0f * ray.direction);
                 REQUIRE(drawn);
                 CHECK(glm::length(drawn->window - place.center()) <
-                      0.01f * std::max(image.width / kWidth, 1.0f) + 0.1f);
+                      0.01f * std::max(image.width / kZoomedWidth, 1.0f) + 0.1f);
                 CHECK(glm::length(window_point(image, picture_point(image, drawn->window)) - drawn->window) < 0.1f);
             }
     }
@@ -113,23 +113,23 @@ TEST_CASE("Zoom: pixels, window points and the projection of the scene agree") {
 TEST_CASE("Zoom: the slices of a magnified picture cover what is seen, each pixel in its place") {
     for (const int notches : {1, 3, 6, 10, 13}) {
         PictureZoom zoom = zoomed(notches, {333.0f, 222.0f});
-        zoom.pan({5.0f, 3.0f}, kWidth, kHeight);
-        const Rect image = zoom.place(kView, kWidth, kHeight);
-        const Rect seen = common_part(image, kView);
-        const auto slices = visible_slices(image, kView, kWidth, kHeight);
+        zoom.pan({5.0f, 3.0f}, kZoomedWidth, kZoomedHeight);
+        const Rect image = zoom.place(kZoomedView, kZoomedWidth, kZoomedHeight);
+        const Rect seen = common_part(image, kZoomedView);
+        const auto slices = visible_slices(image, kZoomedView, kZoomedWidth, kZoomedHeight);
         REQUIRE(slices.size() <= 9);
         float area = 0.0f;
         for (const PictureSlice& slice : slices) {
             area += slice.place.width * slice.place.height;
             CHECK(slice.x >= 0);
-            CHECK(slice.x + slice.width <= kWidth);
-            CHECK(slice.y + slice.height <= kHeight);
+            CHECK(slice.x + slice.width <= kZoomedWidth);
+            CHECK(slice.y + slice.height <= kZoomedHeight);
             // Middles of window pixels of the slice, by the slice and by the mapping.
             for (float at = 0.5f; at < slice.place.width; at += 7.0f) {
                 const int across =
                     slice.x + static_cast<int>(at / slice.place.width * static_cast<float>(slice.width));
                 const PixelPosition pixel =
-                    pixel_under(image, {slice.place.x + at, slice.place.y + 0.5f}, kWidth, kHeight);
+                    pixel_under(image, {slice.place.x + at, slice.place.y + 0.5f}, kZoomedWidth, kZoomedHeight);
                 CHECK(pixel.x == across);
                 CHECK(pixel.y == slice.y);
             }

@@ -9,12 +9,11 @@ using namespace pl::test;
 
 namespace {
 
-constexpr int kSide = 16;
 constexpr int kBad = 37;
 
 /// A viewer of a picture with one pixel that has only invalid samples.
 struct DiagnosticsBench : ModelBench {
-    DiagnosticsBench() : ModelBench(kSide) {
+    DiagnosticsBench() : ModelBench(16) {
         devices.cpu->bad_pixel = kBad;
         options.limits.spp = 4;
     }

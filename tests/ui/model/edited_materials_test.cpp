@@ -1,17 +1,10 @@
 #include "tests/support/catch.hpp"
+#include "tests/support/scenes/shapes.h"
 #include "ui/model/edited_materials.h"
 
 using namespace pl;
 using namespace pl::ui;
-
-namespace {
-
-MaterialDescription with_albedo(MaterialDescription material, float value) {
-    material.albedo = glm::vec3{value};
-    return material;
-}
-
-}  // namespace
+using namespace pl::test;
 
 TEST_CASE("Materials: a file can name the first of each name, and edits of others are known to be missing") {
     auto scene = std::make_shared<SceneDescription>();

@@ -7,14 +7,8 @@ using namespace pl;
 using namespace pl::ui;
 using namespace pl::test;
 
-namespace {
-
-constexpr int kSide = 16;
-
-}  // namespace
-
 TEST_CASE("Self test: rendering rests while it runs, and Esc ends it") {
-    ModelBench bench(kSide);
+    ModelBench bench(16);
     bench.options.backends = {{"cpu", "", ""}, {"cuda", "", "there is none"}};
     ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
     REQUIRE(bench.run_until(model, [&] { return model.frame() != nullptr; }));
@@ -37,7 +31,7 @@ TEST_CASE("Self test: rendering rests while it runs, and Esc ends it") {
 }
 
 TEST_CASE("Self test: closing the viewer ends a self test and a search") {
-    ModelBench bench(kSide);
+    ModelBench bench(16);
     ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
     model.self_test().start();
     model.diagnostics().toggle();

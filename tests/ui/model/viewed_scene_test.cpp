@@ -5,6 +5,7 @@
 #include "core/io/files.h"
 #include "core/measure/picture_identity.h"
 #include "tests/support/catch.hpp"
+#include "tests/support/scenes/shapes.h"
 #include "tests/ui/file_bench.h"
 #include "ui/model/stored_reference.h"
 
@@ -17,11 +18,6 @@ namespace {
 struct MaterialBench : ModelBench {
     MaterialBench() : ModelBench(16) {}
 };
-
-MaterialDescription with_albedo(MaterialDescription material, float value) {
-    material.albedo = glm::vec3{value};
-    return material;
-}
 
 }  // namespace
 

@@ -10,7 +10,7 @@ using namespace pl::test;
 
 namespace {
 
-using Kind = Cursor::Kind;
+using CursorKind = Cursor::Kind;
 
 std::shared_ptr<const LiveRunSet> set_of(Runs runs) {
     auto set = std::make_shared<LiveRunSet>();
@@ -25,11 +25,11 @@ TEST_CASE("Accuracy model: shows noise until an error is measured, then the erro
     model.update(set_of({make_run({.with_reference = false})}), kThisPicture, 0.0);
     CHECK(model.kind().metric == ErrorMetric::Noise);
     CHECK(model.wanted_metric() == ErrorMetric::RelMse);
-    model.set_cursor({Kind::EqualError, 0.1});
+    model.set_cursor({CursorKind::EqualError, 0.1});
     CHECK(model.rows().size() == 1);
     model.update(set_of(two_runs()), kThisPicture, 1e-3);
     CHECK(model.kind().metric == ErrorMetric::RelMse);
-    CHECK(model.cursor().kind == Kind::None);  // it was on another number
+    CHECK(model.cursor().kind == CursorKind::None);  // it was on another number
     CHECK(model.floor() == 1e-3);
     CHECK(model.lines().size() == 2);
     model.set_metric(ErrorMetric::Smape);
@@ -42,7 +42,7 @@ TEST_CASE("Accuracy model: before the first run there is an empty plot and a not
     CHECK_FALSE(model.table().note.empty());
     CHECK(model.lines().empty());
     CHECK(model.rows().empty());
-    model.set_cursor({Kind::EqualCost, 1.0});
+    model.set_cursor({CursorKind::EqualCost, 1.0});
     model.toggle_hidden(7);
     model.fit_view();
     CHECK(model.view().x_axis().low() > 0.0);
@@ -52,13 +52,13 @@ TEST_CASE("Accuracy model: cursors must be positive, and end with the axis they 
     AccuracyModel model;
     model.update(set_of(two_runs()), kThisPicture, 0.0);
     for (const double nonsense : {0.0, -1.0, std::numeric_limits<double>::infinity(), std::nan("")}) {
-        model.set_cursor({Kind::EqualCost, nonsense});
-        CHECK(model.cursor().kind == Kind::None);
+        model.set_cursor({CursorKind::EqualCost, nonsense});
+        CHECK(model.cursor().kind == CursorKind::None);
     }
-    model.set_cursor({Kind::EqualCost, 2.0});
+    model.set_cursor({CursorKind::EqualCost, 2.0});
     CHECK(model.rows().size() == 2);
     model.set_axis(CostAxis::Samples);
-    CHECK(model.cursor().kind == Kind::None);
+    CHECK(model.cursor().kind == CursorKind::None);
     CHECK(model.rows().empty());
 }
 

@@ -4,6 +4,7 @@
 
 #include "tests/support/catch.hpp"
 #include "tests/ui/hand_made_runs.h"
+#include "tests/ui/plot/plot_frame.h"
 #include "ui/plot/plot_lines.h"
 
 using namespace pl;
@@ -11,8 +12,6 @@ using namespace pl::ui;
 using namespace pl::test;
 
 namespace {
-
-constexpr Rect kFrame{100.0f, 50.0f, 300.0f, 200.0f};
 
 PlotLine line_of(const LiveRun& run) {
     PlotLine line;
@@ -76,19 +75,20 @@ TEST_CASE("Plot: thinned lines keep ends, peaks and order") {
 TEST_CASE("Plot: the nearest point is found within reach, on lines that are shown") {
     std::vector<PlotLine> lines{line_of(*make_run({})), line_of(*make_run({.number = 2, .error_of_sample = 0.5}))};
     const PlotView view(fit_range(lines));
-    const Vec2f at = view.to_window(lines[1].points[3].value, kFrame);
-    const auto hit = nearest_point(lines, view, kFrame, at + Vec2f{2.0f, 1.0f}, 10.0f);
+    const Vec2f at = view.to_window(lines[1].points[3].value, kPlotFrame);
+    const auto hit = nearest_point(lines, view, kPlotFrame, at + Vec2f{2.0f, 1.0f}, 10.0f);
     REQUIRE(hit.has_value());
     CHECK(hit->line == 1);
     CHECK(hit->point == 3);
-    CHECK_FALSE(nearest_point(lines, view, kFrame, at + Vec2f{0.0f, 300.0f}, 10.0f).has_value());
+    CHECK_FALSE(nearest_point(lines, view, kPlotFrame, at + Vec2f{0.0f, 300.0f}, 10.0f).has_value());
     lines[1].hidden = true;
-    const auto other = nearest_point(lines, view, kFrame, at, 10.0f);
+    const auto other = nearest_point(lines, view, kPlotFrame, at, 10.0f);
     CHECK((!other || other->line == 0));
     // A point outside of the frame cannot be pointed at.
     PlotView zoomed = view;
-    zoomed.pan({-1000.0f, 0.0f}, kFrame);
-    CHECK_FALSE(nearest_point(lines, zoomed, kFrame, zoomed.to_window(lines[0].points[3].value, kFrame), 10.0f));
+    zoomed.pan({-1000.0f, 0.0f}, kPlotFrame);
+    CHECK_FALSE(
+        nearest_point(lines, zoomed, kPlotFrame, zoomed.to_window(lines[0].points[3].value, kPlotFrame), 10.0f));
 }
 
 TEST_CASE("Plot: dashes go on around corners, and gaps stay gaps") {

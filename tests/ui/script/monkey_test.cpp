@@ -12,7 +12,7 @@ using namespace pl::ui;
 
 namespace {
 
-using Kind = ScriptCommand::Kind;
+using CommandKind = ScriptCommand::Kind;
 
 const Monkey::Places kPlaces{{"Pause", {10, 10, 80, 20}}, {"quit", {10, 40, 80, 20}}, {"Volume", {900, 10, 80, 20}}};
 
@@ -36,10 +36,11 @@ TEST_CASE("Monkey: as many events as requested, the same ones for the same seed,
     };
     CHECK(std::ranges::equal(commands, again, same));
     CHECK_FALSE(std::ranges::equal(commands, other, same));
-    std::map<Kind, int> counts;
+    std::map<CommandKind, int> counts;
     for (const ScriptCommand& command : commands) ++counts[command.kind];
-    for (const Kind kind :
-         {Kind::Move, Kind::AimAt, Kind::Down, Kind::Up, Kind::Wheel, Kind::Key, Kind::Tap, Kind::Type, Kind::Drop})
+    for (const CommandKind kind :
+         {CommandKind::Move, CommandKind::AimAt, CommandKind::Down, CommandKind::Up, CommandKind::Wheel,
+          CommandKind::Key, CommandKind::Tap, CommandKind::Type, CommandKind::Drop})
         CHECK(counts[kind] > 0);
 }
 
@@ -47,12 +48,12 @@ TEST_CASE("Monkey: all keys and buttons are up at the end, and it does not quit"
     for (const std::uint64_t seed : {1u, 2u, 3u, 4u, 5u}) {
         std::map<int, int> keys, buttons;
         for (const ScriptCommand& command : all_of(Monkey(seed, 500))) {
-            if (command.kind == Kind::Key) ++keys[command.key.scancode];
-            if (command.kind == Kind::KeyUp) --keys[command.key.scancode];
-            if (command.kind == Kind::Down) ++buttons[command.button];
-            if (command.kind == Kind::Up) --buttons[command.button];
+            if (command.kind == CommandKind::Key) ++keys[command.key.scancode];
+            if (command.kind == CommandKind::KeyUp) --keys[command.key.scancode];
+            if (command.kind == CommandKind::Down) ++buttons[command.button];
+            if (command.kind == CommandKind::Up) --buttons[command.button];
             CHECK(command.text != "quit");
-            if (command.kind == Kind::Tap) {
+            if (command.kind == CommandKind::Tap) {
                 const Action* action = find_action(command.key);
                 CHECK((action == nullptr || action->id != ActionId::Quit));
             }

@@ -1,19 +1,11 @@
 #include "ui/worker/edit_queue.h"
 
 #include "tests/support/catch.hpp"
+#include "tests/support/scenes/shapes.h"
 
 using namespace pl;
 using namespace pl::ui;
-
-namespace {
-
-MaterialDescription with_albedo(float value) {
-    MaterialDescription material;
-    material.albedo = glm::vec3{value};
-    return material;
-}
-
-}  // namespace
+using namespace pl::test;
 
 TEST_CASE("Edit queue: of each kind only the newest is left, in order of its arrival") {
     EditQueue queue;
@@ -39,17 +31,17 @@ TEST_CASE("Edit queue: of each kind only the newest is left, in order of its arr
 
 TEST_CASE("Edit queue: of each material only the newest edit is left, and a scene replaces them all") {
     EditQueue queue;
-    queue.push(EditMaterial{0, with_albedo(0.1f)});
-    queue.push(EditMaterial{1, with_albedo(0.2f)});
-    queue.push(EditMaterial{0, with_albedo(0.3f)});
+    queue.push(EditMaterial{0, gray(0.1f)});
+    queue.push(EditMaterial{1, gray(0.2f)});
+    queue.push(EditMaterial{0, gray(0.3f)});
     queue.push(EditSeed{1});
     auto edits = queue.take();
     REQUIRE(edits.size() == 3);
     CHECK(find_edit<EditMaterial>(edits[0])->index == 1);
     CHECK(find_edit<EditMaterial>(edits[1])->material.albedo.x == 0.3f);
-    queue.push(EditMaterial{5, with_albedo(0.4f)});
+    queue.push(EditMaterial{5, gray(0.4f)});
     queue.push(EditScene{nullptr});
-    queue.push(EditMaterial{0, with_albedo(0.5f)});
+    queue.push(EditMaterial{0, gray(0.5f)});
     edits = queue.take();
     REQUIRE(edits.size() == 2);
     CHECK(find_edit<EditScene>(edits[0]));

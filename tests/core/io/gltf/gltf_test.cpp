@@ -26,8 +26,8 @@ std::vector<glm::vec3> corners(const SceneDescription& scene, std::size_t triang
     return {scene.positions[v.x], scene.positions[v.y], scene.positions[v.z]};
 }
 
-const std::vector<glm::vec3> kTriangle{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
-const std::vector<float> kSquare{0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
+const std::vector<glm::vec3> kTriangleCorners{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+const std::vector<float> kSquareCorners{0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
 
 }  // namespace
 
@@ -45,7 +45,7 @@ TEST_CASE("gltf: a triangle, as text and as a .glb, of any suffix") {
     for (const std::string& bytes : {file.text(), file.glb(), "\xEF\xBB\xBF" + file.text()}) {
         const SceneDescription scene = load_gltf(bytes);
         REQUIRE(scene.triangles.size() == 1);
-        CHECK(corners(scene, 0) == kTriangle);
+        CHECK(corners(scene, 0) == kTriangleCorners);
         CHECK(scene.up == glm::vec3(0, 1, 0));
         CHECK(scene.default_light);
         CHECK(scene.name == "s");
@@ -60,7 +60,7 @@ TEST_CASE("gltf: meshes that nodes place far from the origin are moved near it i
     CHECK(glm::length(scene.origin - glm::dvec3(391235.0, 5820124.0, 0.0)) < 2.0);
     CHECK(scene.origin.z == 0.0);
     for (std::size_t i = 0; i < 3; ++i) {
-        const glm::dvec3 wanted = glm::dvec3(kTriangle[i]) + glm::dvec3(391234.37, 5820123.81, -3.5);
+        const glm::dvec3 wanted = glm::dvec3(kTriangleCorners[i]) + glm::dvec3(391234.37, 5820123.81, -3.5);
         CHECK(glm::length(scene.origin + glm::dvec3(corners(scene, 0)[i]) - wanted) < 1e-6);
     }
     CHECK(is_told(scene, "far from the origin"));
@@ -74,7 +74,7 @@ TEST_CASE("gltf: meshes so small and far that floats leave them no area are move
     const SceneDescription scene = load_gltf(file);
     REQUIRE(scene.triangles.size() == 1);
     CHECK(glm::length(scene.origin + glm::dvec3(corners(scene, 0)[1]) - glm::dvec3(1e8, 0.0, 0.0) -
-                      0.5 * glm::dvec3(kTriangle[1])) < 1e-6);
+                      0.5 * glm::dvec3(kTriangleCorners[1])) < 1e-6);
 }
 
 TEST_CASE("gltf: buffers in files of the folder, with escapes in their names") {
@@ -85,7 +85,7 @@ TEST_CASE("gltf: buffers in files of the folder, with escapes in their names") {
     const auto bin = folder.write("data/my buffer.bin", file.buffer + "more");
     const auto path = folder.write("s.gltf", file.text());
     const SceneDescription scene = load_scene(path.string(), "");
-    CHECK(corners(scene, 0) == kTriangle);
+    CHECK(corners(scene, 0) == kTriangleCorners);
     CHECK(scene.files == std::vector<std::filesystem::path>{path, bin});
 }
 
@@ -94,7 +94,7 @@ TEST_CASE("gltf: indices, strips and fans have the order of the format") {
                                                      {{0, 0, 0}, {1, 1, 0}, {0, 1, 0}}};
     const auto triangles = [&](Json primitive) {
         GltfMaker file;
-        primitive["attributes"]["POSITION"] = file.vec3(kSquare);
+        primitive["attributes"]["POSITION"] = file.vec3(kSquareCorners);
         if (primitive.contains("corners")) {
             primitive["indices"] = file.indices(primitive["corners"].get<std::vector<std::uint16_t>>());
             primitive.erase("corners");
@@ -138,9 +138,9 @@ TEST_CASE("gltf: strided, quantized and sparse accessors") {
     file.node({{"mesh", file.mesh({{"attributes", {{"POSITION", sparse}}}})}});
     const SceneDescription scene = load_gltf(file);
     REQUIRE(scene.triangles.size() == 3);
-    CHECK(corners(scene, 0) == kTriangle);
+    CHECK(corners(scene, 0) == kTriangleCorners);
     CHECK(corners(scene, 1) == std::vector<glm::vec3>{{0, 0, 0}, {0, 1, 0}, {-1, 0, 0}});
-    CHECK(corners(scene, 2) == kTriangle);
+    CHECK(corners(scene, 2) == kTriangleCorners);
 }
 
 TEST_CASE("gltf: nodes move, turn and scale the nodes below them") {
@@ -419,7 +419,7 @@ TEST_CASE("gltf: broken files are refused with place, expected and got", "[hard]
 
 TEST_CASE("gltf: indices beyond the vertices, numbers that are none, and giant counts are refused", "[hard]") {
     GltfMaker indices;
-    indices.node({{"mesh", indices.mesh({{"attributes", {{"POSITION", indices.vec3(kSquare)}}},
+    indices.node({{"mesh", indices.mesh({{"attributes", {{"POSITION", indices.vec3(kSquareCorners)}}},
                                          {"indices", indices.indices({0, 1, 4})}})}});
     CHECK_THAT(gltf_refusal(indices),
                contains("expected indices below 4, the number of vertices, got 4 at corner 2"));

@@ -14,12 +14,12 @@ using pl::test::contains;
 using pl::test::expanded;
 using pl::test::gltf_refusal;
 using pl::test::GltfMaker;
+using pl::test::kKeepInstances;
 using pl::test::load_gltf;
 using pl::test::TemporaryFolder;
 
 namespace {
 
-const LoadSettings kKeep{.most_copied_triangles = 0};
 constexpr const char* kExtension = "EXT_mesh_gpu_instancing";
 
 /// A mesh of two primitives of different materials: a tilted square with normals, texture coordinates and colors, and a triangle.
@@ -41,7 +41,7 @@ int leaf(GltfMaker& file) {
 
 /// Checks that the file gives instances above the limit, and the same triangles as below it.
 SceneDescription check_kept(const GltfMaker& file, std::size_t meshes, std::size_t instances) {
-    const SceneDescription kept = load_gltf(file, kKeep);
+    const SceneDescription kept = load_gltf(file, kKeepInstances);
     CHECK(kept.meshes.size() == meshes);
     CHECK(kept.instances.size() == instances);
     const SceneDescription copied = load_gltf(file);
@@ -111,7 +111,7 @@ TEST_CASE("gltf instances: meshes that emit, have skins, or are shown once in an
     for (int i = 0; i < 2; ++i) file.node({{"mesh", skinned}, {"skin", 0}});
     file.triangle();
     file.node({{"mesh", 2}, {"scale", {-1, 1, 1}}});
-    const SceneDescription scene = load_gltf(file, kKeep);
+    const SceneDescription scene = load_gltf(file, kKeepInstances);
     CHECK(scene.instances.empty());
     CHECK(scene.meshes.empty());
     CHECK(scene.triangles.size() == 6);
@@ -125,7 +125,7 @@ TEST_CASE("gltf instances: places that cannot be inverted or are too far away ar
     const SceneDescription kept = check_kept(file, 1, 2);
     CHECK(direct_triangles(kept) == 3);
     file.node({{"mesh", mesh}, {"translation", {2e18, 0, 0}}});
-    CHECK_THAT(gltf_refusal(file, kKeep), contains("expected coordinates up to 1e+18"));
+    CHECK_THAT(gltf_refusal(file, kKeepInstances), contains("expected coordinates up to 1e+18"));
 }
 
 TEST_CASE("gltf instances: triangles without area and normals of no length are left out of the mesh") {
@@ -140,7 +140,7 @@ TEST_CASE("gltf instances: triangles without area and normals of no length are l
     const int nothing = flat.mesh({{"attributes", {{"POSITION", flat.vec3({0, 0, 0, 1, 0, 0, 1, 0, 0})}}}});
     flat.triangle();
     for (int i = 0; i < 2; ++i) flat.node({{"mesh", nothing}});
-    CHECK(load_gltf(flat, kKeep).meshes.empty());
+    CHECK(load_gltf(flat, kKeepInstances).meshes.empty());
 }
 
 TEST_CASE("gltf instances: EXT_mesh_gpu_instancing places a node's mesh, copied or kept") {
@@ -189,7 +189,7 @@ TEST_CASE("gltf instances: EXT_mesh_gpu_instancing with attributes of its own al
     CHECK(load_gltf(file).triangles.size() == 2);
     file.root["skins"] = {{{"joints", {0}}}};
     file.root["nodes"][0]["skin"] = 0;
-    const SceneDescription skinned = load_gltf(file, kKeep);
+    const SceneDescription skinned = load_gltf(file, kKeepInstances);
     CHECK(skinned.triangles.size() == 1);
     CHECK(std::any_of(skinned.warnings.begin(), skinned.warnings.end(), [](const std::string& warning) {
         return warning.find("instances of meshes with skins are left out") != std::string::npos;
@@ -238,7 +238,7 @@ TEST_CASE("gltf instances: damaged places are refused with file, place, expected
         file.root["nodes"][0]["extensions"] = instancing(attributes);
         INFO(broken.told);
         CHECK_THAT(gltf_refusal(file), contains("s.gltf") && contains(broken.told));
-        CHECK_THAT(gltf_refusal(file, kKeep), contains(broken.told));
+        CHECK_THAT(gltf_refusal(file, kKeepInstances), contains(broken.told));
     }
 }
 
@@ -295,7 +295,7 @@ TEST_CASE("gltf instances: a scene file with knobs has copies, which its groups 
     folder.write("m.glb", file.glb());
     const auto opened = [&](const std::string& more) {
         const auto path = folder.write("s.json", R"({"schema": "pathlight.scene/1", "obj": "m.glb")" + more + "}");
-        return load_scene(path.string(), "", kKeep);
+        return load_scene(path.string(), "", kKeepInstances);
     };
     CHECK(opened("").instances.size() == 2);
     const SceneDescription knobs = opened(R"(, "knobs": {"lift": {"default": 0, "range": [0, 1], "does": "x",

@@ -21,15 +21,15 @@ using pl::test::load_gltf;
 
 namespace {
 
-SceneDescription load(const Json& material) {
+SceneDescription load_material(const Json& material) {
     GltfMaker file;
     file.triangle(material);
     return load_gltf(file);
 }
 
 /// The only material of a file with this one.
-MaterialDescription surface(const Json& material) {
-    const SceneDescription scene = load(material);
+MaterialDescription gltf_surface(const Json& material) {
+    const SceneDescription scene = load_material(material);
     REQUIRE(scene.materials.size() == 1);
     return scene.materials[0];
 }
@@ -62,12 +62,12 @@ GltfMaker with_image(const Json& material, const std::array<std::uint8_t, 8>& rg
 
 TEST_CASE("gltf materials: metals and plastics by their metalness") {
     const MaterialDescription metal =
-        surface(metal_rough({{"baseColorFactor", {0.9, 0.5, 0.1, 1}}, {"roughnessFactor", 0.25}}));
+        gltf_surface(metal_rough({{"baseColorFactor", {0.9, 0.5, 0.1, 1}}, {"roughnessFactor", 0.25}}));
     CHECK(metal.kind == SurfaceKind::Conductor);
     CHECK(metal.specular == glm::vec3(0.9f, 0.5f, 0.1f));
     CHECK(metal.albedo == glm::vec3(0.0f));
     CHECK(metal.roughness == 0.25f);
-    const MaterialDescription plastic = surface(
+    const MaterialDescription plastic = gltf_surface(
         metal_rough({{"baseColorFactor", {0.9, 0.5, 0.1, 1}}, {"metallicFactor", 0}, {"roughnessFactor", 0.01}}));
     CHECK(plastic.kind == SurfaceKind::Plastic);
     CHECK(plastic.albedo == glm::vec3(0.9f, 0.5f, 0.1f));
@@ -75,7 +75,7 @@ TEST_CASE("gltf materials: metals and plastics by their metalness") {
     CHECK(plastic.ior == 1.5f);
     CHECK(plastic.roughness == 0.0f);
     const SceneDescription half =
-        load(metal_rough({{"metallicFactor", 0.4}, {"baseColorFactor", {0.9, 0.5, 0.1, 1}}}));
+        load_material(metal_rough({{"metallicFactor", 0.4}, {"baseColorFactor", {0.9, 0.5, 0.1, 1}}}));
     REQUIRE(half.materials.size() == 2);
     CHECK(half.triangles[0].material == 0);
     CHECK(half.materials[0].kind == SurfaceKind::Plastic);
@@ -84,7 +84,7 @@ TEST_CASE("gltf materials: metals and plastics by their metalness") {
     CHECK(half.materials[1].kind == SurfaceKind::Conductor);
     CHECK(half.materials[1].specular == glm::vec3(0.9f, 0.5f, 0.1f));
     CHECK(half.warnings.size() == 1);  // of the light that the scene lacks
-    CHECK(surface(Json::object()).kind == SurfaceKind::Conductor);
+    CHECK(gltf_surface(Json::object()).kind == SurfaceKind::Conductor);
 }
 
 TEST_CASE("gltf materials: triangles without one are of a rough white metal, which is told") {
@@ -98,12 +98,12 @@ TEST_CASE("gltf materials: triangles without one are of a rough white metal, whi
 }
 
 TEST_CASE("gltf materials: index of refraction, specular amount and its absence") {
-    CHECK(surface(extended("ior", {{"ior", 1.8}})).ior == 1.8f);
-    CHECK(surface(extended("ior", {{"ior", 0}})).ior == kMostIor);
+    CHECK(gltf_surface(extended("ior", {{"ior", 1.8}})).ior == 1.8f);
+    CHECK(gltf_surface(extended("ior", {{"ior", 0}})).ior == kMostIor);
     const MaterialDescription tinted =
-        surface(extended("specular", {{"specularFactor", 0.5}, {"specularColorFactor", {1, 0.5, 0}}}));
+        gltf_surface(extended("specular", {{"specularFactor", 0.5}, {"specularColorFactor", {1, 0.5, 0}}}));
     CHECK(tinted.specular == glm::vec3(0.5f, 0.25f, 0.0f));
-    const MaterialDescription matte = surface(extended("specular", {{"specularFactor", 0}}));
+    const MaterialDescription matte = gltf_surface(extended("specular", {{"specularFactor", 0}}));
     CHECK(matte.kind == SurfaceKind::Diffuse);
     CHECK(matte.albedo == glm::vec3(1.0f));
     CHECK(matte.roughness == 0.0f);
@@ -114,29 +114,29 @@ TEST_CASE("gltf materials: glass by transmission") {
     glass["pbrMetallicRoughness"]["baseColorFactor"] = {0.5, 1, 1, 1};
     glass["pbrMetallicRoughness"]["roughnessFactor"] = 0.3;
     glass["extensions"]["KHR_materials_ior"]["ior"] = 1.33;
-    SceneDescription scene = load(glass);
+    SceneDescription scene = load_material(glass);
     CHECK(scene.materials[0].kind == SurfaceKind::Dielectric);
     CHECK(scene.materials[0].transmission == glm::vec3(0.5f, 1.0f, 1.0f));
     CHECK(scene.materials[0].ior == 1.33f);
     CHECK(scene.materials[0].roughness == 0.3f);
     CHECK(is_told(scene, "frosted thin panes"));
     glass["extensions"]["KHR_materials_volume"] = {{"thicknessFactor", 1}};
-    scene = load(glass);
+    scene = load_material(glass);
     CHECK_FALSE(is_told(scene, "thin panes"));
     CHECK(scene.materials[0].absorption == glm::vec3(0.0f));
     glass["extensions"]["KHR_materials_ior"]["ior"] = 1.01;
-    CHECK(surface(glass).roughness == 0.0f);
+    CHECK(gltf_surface(glass).roughness == 0.0f);
     glass["pbrMetallicRoughness"]["metallicFactor"] = 1;
-    CHECK(surface(glass).kind == SurfaceKind::Conductor);
+    CHECK(gltf_surface(glass).kind == SurfaceKind::Conductor);
     glass["extensions"]["KHR_materials_ior"]["ior"] = 1.5;
     for (const double metalness : {0.25, 0.75}) {
         glass["pbrMetallicRoughness"]["metallicFactor"] = metalness;
-        const SceneDescription pure = load(glass);
+        const SceneDescription pure = load_material(glass);
         REQUIRE(pure.materials.size() == 1);
         CHECK(pure.materials[0].kind == (metalness < 0.5 ? SurfaceKind::Dielectric : SurfaceKind::Conductor));
         CHECK(is_told(pure, "blends with glass are shown as the component of the larger share"));
     }
-    const SceneDescription weak = load(extended("transmission", {{"transmissionFactor", 0.2}}));
+    const SceneDescription weak = load_material(extended("transmission", {{"transmissionFactor", 0.2}}));
     CHECK(weak.materials[0].kind == SurfaceKind::Plastic);
     CHECK(is_told(weak, "transmission below one half"));
 }
@@ -145,7 +145,7 @@ TEST_CASE("gltf materials: glass without an inside is a thin pane") {
     Json glass = extended("transmission", {{"transmissionFactor", 1}});
     glass["pbrMetallicRoughness"]["baseColorFactor"] = {0.5, 1, 1, 1};
     glass["pbrMetallicRoughness"]["roughnessFactor"] = 0.01;
-    const SceneDescription scene = load(glass);
+    const SceneDescription scene = load_material(glass);
     CHECK(scene.materials[0].kind == SurfaceKind::Pane);
     CHECK(scene.materials[0].transmission == glm::vec3(0.5f, 1.0f, 1.0f));
     CHECK(scene.materials[0].roughness == 0.0f);
@@ -157,34 +157,34 @@ TEST_CASE("gltf materials: the inside of glass absorbs") {
     Json glass = extended("transmission", {{"transmissionFactor", 1}});
     glass["extensions"]["KHR_materials_volume"] = {
         {"thicknessFactor", 1}, {"attenuationDistance", 2}, {"attenuationColor", {0.5, 1, 0}}};
-    const glm::vec3 absorption = surface(glass).absorption;
+    const glm::vec3 absorption = gltf_surface(glass).absorption;
     CHECK(absorption.x == Approx(0.5 * std::log(2.0)).epsilon(1e-6));
     CHECK(absorption.y == 0.0f);
     CHECK(transmittance(absorption.z, 2.0f) == 0.0f);
     glass["extensions"]["KHR_materials_volume"]["attenuationDistance"] = 1e-38;
-    CHECK(is_finite(surface(glass).absorption));
+    CHECK(is_finite(gltf_surface(glass).absorption));
     glass["extensions"]["KHR_materials_volume"]["attenuationDistance"] = 0;
-    const SceneDescription odd = load(glass);
+    const SceneDescription odd = load_material(glass);
     CHECK(odd.materials[0].absorption == glm::vec3(0.0f));
     CHECK(is_told(odd, "absorbs within no distance"));
     glass["extensions"]["KHR_materials_volume"] = {{"attenuationDistance", 2}, {"attenuationColor", {0.5, 1, 0}}};
-    CHECK(surface(glass).absorption == glm::vec3(0.0f));  // thin
+    CHECK(gltf_surface(glass).absorption == glm::vec3(0.0f));  // thin
 }
 
 // At a roughness of 0.5 the facets are 0.25 wide, and along the tangent 0.25 + 0.75 times the square of the strength.
 TEST_CASE("gltf materials: anisotropy of metals") {
     Json brushed = metal_rough({{"roughnessFactor", 0.5}});
     brushed["extensions"]["KHR_materials_anisotropy"] = {{"anisotropyStrength", 0.5}, {"anisotropyRotation", 1.0}};
-    const MaterialDescription metal = surface(brushed);
+    const MaterialDescription metal = gltf_surface(brushed);
     CHECK(metal.anisotropy == Approx(1.0 - 0.25 / 0.4375));
     CHECK(square(square(metal.roughness)) == Approx(0.25 * 0.4375));
     CHECK(metal.rotation_deg == Approx(57.29578));
     Json& extension = brushed["extensions"]["KHR_materials_anisotropy"];
     extension["anisotropyTexture"] = {{"index", 0}};
-    CHECK(is_told(load(brushed), "images of anisotropy are left out"));
+    CHECK(is_told(load_material(brushed), "images of anisotropy are left out"));
     extension = {{"anisotropyStrength", 1}};
     brushed["pbrMetallicRoughness"]["roughnessFactor"] = 0.05;
-    const SceneDescription line = load(brushed);
+    const SceneDescription line = load_material(brushed);
     CHECK(line.materials[0].anisotropy == kMostAnisotropy);
     CHECK(is_told(line, "100 times as wide"));
     CHECK_FALSE(is_told(line, "texture coordinates"));
@@ -197,31 +197,31 @@ TEST_CASE("gltf materials: anisotropy of metals") {
     bare.root["meshes"][0]["primitives"][0]["attributes"]["TANGENT"] = tangents;
     CHECK(is_told(load_gltf(bare), "tangents are left out: texture coordinates decide the direction of anisotropy"));
     brushed["pbrMetallicRoughness"] = {{"metallicFactor", 0.25}, {"roughnessFactor", 0.5}};
-    const SceneDescription blend = load(brushed);
+    const SceneDescription blend = load_material(brushed);
     REQUIRE(blend.materials.size() == 2);
     CHECK(blend.materials[0].anisotropy == 0.0f);
     CHECK(blend.materials[1].anisotropy == Approx(0.75));
     CHECK(is_told(blend, "anisotropy of other surfaces than metals is left out"));
-    const SceneDescription plastic = load(extended("anisotropy", {{"anisotropyStrength", 0.5}}));
+    const SceneDescription plastic = load_material(extended("anisotropy", {{"anisotropyStrength", 0.5}}));
     CHECK(is_told(plastic, "anisotropy of other surfaces than metals is left out"));
     extension["anisotropyStrength"] = 2;
-    CHECK(is_told(load(brushed), "a number out of the range of the format is moved into it"));
+    CHECK(is_told(load_material(brushed), "a number out of the range of the format is moved into it"));
     extension["anisotropyStrength"] = 0;
-    CHECK(load(brushed).materials[1].roughness == 0.5f);
-    CHECK_FALSE(load(brushed).materials[1].is_anisotropic());
+    CHECK(load_material(brushed).materials[1].roughness == 0.5f);
+    CHECK_FALSE(load_material(brushed).materials[1].is_anisotropic());
 }
 
 TEST_CASE("gltf materials: a clear coat on dielectrics") {
     const Json coat = extended("clearcoat", {{"clearcoatFactor", 1}, {"clearcoatRoughnessFactor", 0.2}});
-    CHECK(surface(coat).kind == SurfaceKind::Plastic);
-    CHECK(surface(coat).roughness == 0.2f);
+    CHECK(gltf_surface(coat).kind == SurfaceKind::Plastic);
+    CHECK(gltf_surface(coat).roughness == 0.2f);
     Json metal = coat;
     metal["pbrMetallicRoughness"]["metallicFactor"] = 1;
-    const SceneDescription scene = load(metal);
+    const SceneDescription scene = load_material(metal);
     CHECK(scene.materials[0].roughness == 1.0f);
     CHECK(is_told(scene, "a clear coat on metal"));
     metal["pbrMetallicRoughness"] = {{"metallicFactor", 0.25}, {"roughnessFactor", 0.5}};
-    const SceneDescription blend = load(metal);
+    const SceneDescription blend = load_material(metal);
     REQUIRE(blend.materials.size() == 2);
     CHECK(blend.materials[0].roughness == 0.2f);
     CHECK(blend.materials[1].roughness == 0.5f);
@@ -232,7 +232,7 @@ TEST_CASE("gltf materials: sheen makes velvet of dielectrics") {
     const Json sheen = {{"sheenColorFactor", {0.9, 0.5, 0.25}}, {"sheenRoughnessFactor", 0.5}};
     Json cloth = extended("sheen", sheen);
     cloth["pbrMetallicRoughness"] = {{"metallicFactor", 0}, {"baseColorFactor", {0.1, 0.2, 0.3, 1}}};
-    const SceneDescription scene = load(cloth);
+    const SceneDescription scene = load_material(cloth);
     REQUIRE(scene.materials.size() == 1);
     CHECK(scene.materials[0].kind == SurfaceKind::Velvet);
     CHECK(scene.materials[0].albedo == glm::vec3(0.1f, 0.2f, 0.3f));
@@ -241,54 +241,55 @@ TEST_CASE("gltf materials: sheen makes velvet of dielectrics") {
     CHECK(is_told(scene, "sheen takes the place of the reflection of its base"));
     Json& extension = cloth["extensions"]["KHR_materials_sheen"];
     extension.erase("sheenRoughnessFactor");
-    CHECK(surface(cloth).roughness == SheenFibers::kLeastRoughness);
-    CHECK(is_told(load(cloth), "sheen of a roughness below 0.26 is shown as one of 0.26"));
+    CHECK(gltf_surface(cloth).roughness == SheenFibers::kLeastRoughness);
+    CHECK(is_told(load_material(cloth), "sheen of a roughness below 0.26 is shown as one of 0.26"));
     extension["sheenColorFactor"] = {0, 0, 0};
-    CHECK(surface(cloth).kind == SurfaceKind::Plastic);
+    CHECK(gltf_surface(cloth).kind == SurfaceKind::Plastic);
     extension["sheenColorTexture"] = {{"index", 0}};
-    CHECK(is_told(load(cloth), "images of the color of sheen are left out"));
+    CHECK(is_told(load_material(cloth), "images of the color of sheen are left out"));
     extension = sheen;
     cloth["extensions"]["KHR_materials_clearcoat"] = {{"clearcoatFactor", 1}};
-    CHECK(surface(cloth).kind == SurfaceKind::Plastic);
-    CHECK(is_told(load(cloth), "sheen under a clear coat is left out"));
+    CHECK(gltf_surface(cloth).kind == SurfaceKind::Plastic);
+    CHECK(is_told(load_material(cloth), "sheen under a clear coat is left out"));
     Json metal = extended("sheen", sheen);
     metal["pbrMetallicRoughness"]["metallicFactor"] = 1;
-    CHECK(surface(metal).kind == SurfaceKind::Conductor);
-    CHECK(is_told(load(metal), "sheen on metal or glass is left out"));
+    CHECK(gltf_surface(metal).kind == SurfaceKind::Conductor);
+    CHECK(is_told(load_material(metal), "sheen on metal or glass is left out"));
 }
 
 TEST_CASE("gltf materials: emission with its strength, on both sides if the surface has two") {
     Json lamp = extended("emissive_strength", {{"emissiveStrength", 20}});
     lamp["emissiveFactor"] = {1, 0.5, 0};
-    CHECK(surface(lamp).emission == glm::vec3(20.0f, 10.0f, 0.0f));
-    CHECK_FALSE(surface(lamp).two_sided_emission);
+    CHECK(gltf_surface(lamp).emission == glm::vec3(20.0f, 10.0f, 0.0f));
+    CHECK_FALSE(gltf_surface(lamp).two_sided_emission);
     lamp["doubleSided"] = true;
-    CHECK(surface(lamp).two_sided_emission);
-    CHECK_FALSE(load(lamp).default_light);
+    CHECK(gltf_surface(lamp).two_sided_emission);
+    CHECK_FALSE(load_material(lamp).default_light);
     // A label lights nothing: the viewer does.
     lamp["extensions"].erase("KHR_materials_emissive_strength");
-    const SceneDescription label = load(lamp);
+    const SceneDescription label = load_material(lamp);
     CHECK(label.default_light);
     CHECK(is_told(label, "no light in this scene but surfaces that glow; by default"));
 }
 
 TEST_CASE("gltf materials: unlit, specular-glossiness, and content that is left out") {
-    const SceneDescription unlit = load(extended("unlit", Json::object()));
+    const SceneDescription unlit = load_material(extended("unlit", Json::object()));
     CHECK(unlit.materials[0].kind == SurfaceKind::Diffuse);
     CHECK(is_told(unlit, "unlit surfaces are shown as diffuse ones"));
     const Json gloss = {
         {"diffuseFactor", {0.1, 0.2, 0.3, 1}}, {"glossinessFactor", 0.75}, {"specularFactor", {0, 0, 0.1}}};
-    const MaterialDescription plastic = surface(extended("pbrSpecularGlossiness", gloss));
+    const MaterialDescription plastic = gltf_surface(extended("pbrSpecularGlossiness", gloss));
     CHECK(plastic.kind == SurfaceKind::Plastic);
     CHECK(plastic.albedo == glm::vec3(0.1f, 0.2f, 0.3f));
     CHECK(plastic.roughness == 0.25f);
     Json metal = gloss;
     metal["specularFactor"] = {0.9, 0.8, 0.7};
-    CHECK(surface(extended("pbrSpecularGlossiness", metal)).specular == glm::vec3(0.9f, 0.8f, 0.7f));
+    CHECK(gltf_surface(extended("pbrSpecularGlossiness", metal)).specular == glm::vec3(0.9f, 0.8f, 0.7f));
     for (const auto& [name, words] :
          {std::pair{"iridescence", "iridescence is left out"}, {"dispersion", "dispersion"}})
-        CHECK(is_told(load(extended(name, Json::object())), words));
-    const SceneDescription wild = load(metal_rough({{"roughnessFactor", 7}, {"baseColorFactor", {2, 0, 0, 1}}}));
+        CHECK(is_told(load_material(extended(name, Json::object())), words));
+    const SceneDescription wild =
+        load_material(metal_rough({{"roughnessFactor", 7}, {"baseColorFactor", {2, 0, 0, 1}}}));
     CHECK(wild.materials[0].roughness == 1.0f);
     CHECK(wild.materials[0].specular == glm::vec3(1.0f, 0.0f, 0.0f));
     CHECK(is_told(wild, "a number out of the range of the format is moved into it (2 in all)"));
@@ -402,19 +403,20 @@ TEST_CASE("gltf images: holes by the cutoff of the mask, and partial opacity") {
     CHECK(scene.materials[0].opacity == 0.5f);
     CHECK(scene.materials[0].opacity_rule == OpacityRule::Blend);
     material["alphaMode"] = "HALF";
-    CHECK_THAT(test::input_error([&] { load(material); }), contains("expected OPAQUE, MASK or BLEND, got 'HALF'"));
+    CHECK_THAT(test::input_error([&] { load_material(material); }),
+               contains("expected OPAQUE, MASK or BLEND, got 'HALF'"));
 }
 
 TEST_CASE("gltf materials: an even opacity blends, or is that of nothing at all") {
     Json material = metal_rough({{"baseColorFactor", {1, 0, 0, 0.25}}, {"metallicFactor", 0}});
     material["alphaMode"] = "BLEND";
-    const MaterialDescription veil = surface(material);
+    const MaterialDescription veil = gltf_surface(material);
     CHECK(veil.kind == SurfaceKind::Plastic);
     CHECK(veil.albedo == glm::vec3(1, 0, 0));
     CHECK(veil.opacity == 0.25f);
     CHECK(veil.opacity_rule == OpacityRule::Blend);
     material["alphaMode"] = "OPAQUE";
-    CHECK_FALSE(surface(material).may_have_holes());
+    CHECK_FALSE(gltf_surface(material).may_have_holes());
     GltfMaker hidden;
     material["alphaMode"] = "MASK";
     hidden.triangle(material);

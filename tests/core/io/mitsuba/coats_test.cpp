@@ -20,12 +20,6 @@ std::string coated(const std::string& inside, const std::string& more = "", cons
            more + inside + "</bsdf>";
 }
 
-SceneDescription scene_with(const std::string& bsdf) {
-    return load_mitsuba_text("<shape type=\"rectangle\">" + bsdf + "</shape>");
-}
-
-MaterialDescription surface(const std::string& bsdf) { return scene_with(bsdf).materials.at(0); }
-
 /// Share of even light that a smooth coat of this index reflects.
 double mean_fresnel(float eta) {
     double sum = 0.0;

@@ -10,8 +10,6 @@ using namespace pl::test;
 
 namespace {
 
-const LoadSettings kKeep{.most_copied_triangles = 0};
-
 SceneDescription load(const TemporaryFolder& folder, const std::string& content, const LoadSettings& asked) {
     return load_scene(folder.write("s.xml", scene_of(content)).string(), "", asked);
 }
@@ -32,7 +30,7 @@ SceneDescription check_kept(const std::string& content, std::size_t meshes, std:
                  "property uchar red\nproperty uchar green\nproperty uchar blue\nelement face 2\n"
                  "property list uchar int vertex_indices\nend_header\n0 0 0 255 51 0\n1 0 0.5 0 0 255\n"
                  "1 1 0 102 0 0\n0 1 0.3 9 9 9\n3 0 1 2\n3 0 2 3\n");
-    const SceneDescription kept = load(folder, content, kKeep);
+    const SceneDescription kept = load(folder, content, kKeepInstances);
     CHECK(kept.meshes.size() == meshes);
     CHECK(kept.instances.size() == instances);
     const SceneDescription copied = load(folder, content, {});
@@ -101,12 +99,12 @@ TEST_CASE(
 
 TEST_CASE("mitsuba instances: groups shown once, and places that cannot be inverted, are copied") {
     const TemporaryFolder folder;
-    const SceneDescription once = load(folder, group("g", kSquare) + instance("g", ""), kKeep);
+    const SceneDescription once = load(folder, group("g", kSquare) + instance("g", ""), kKeepInstances);
     CHECK(once.instances.empty());
     const SceneDescription flat = load(folder,
                                        group("g", kSquare) + instance("g", "<scale x=\"1\" y=\"1\" z=\"0\"/>") +
                                            instance("g", "") + instance("g", "<translate z=\"1\"/>"),
-                                       kKeep);
+                                       kKeepInstances);
     CHECK(flat.instances.size() == 2);
     CHECK(direct_triangles(flat) == 2);
 }
@@ -122,7 +120,7 @@ TEST_CASE("mitsuba instances: a relief rises by the mean scale of its instances"
     const std::string content =
         group("g", bumpy) + instance("g", "<scale value=\"2\"/>") + instance("g", "<scale value=\"6\"/>");
     const SceneDescription copied = load(folder, content, {});
-    const SceneDescription kept = load(folder, content, kKeep);
+    const SceneDescription kept = load(folder, content, kKeepInstances);
     REQUIRE(kept.instances.size() == 2);
     REQUIRE(copied.textures.size() == 1);
     for (std::size_t i = 0; i < copied.textures[0].texels.size(); ++i)

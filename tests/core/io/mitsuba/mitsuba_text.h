@@ -23,6 +23,17 @@ inline SceneDescription load_mitsuba_text(const std::string& content) {
     return load_mitsuba_text(TemporaryFolder(), content);
 }
 
+/// A rectangle with this surface.
+inline SceneDescription scene_with(const std::string& bsdf) {
+    return load_mitsuba_text("<shape type=\"rectangle\">" + bsdf + "</shape>");
+}
+/// The only material of that scene.
+inline MaterialDescription surface(const std::string& bsdf) {
+    const SceneDescription scene = scene_with(bsdf);
+    REQUIRE(scene.materials.size() == 1);
+    return scene.materials[0];
+}
+
 /// The message by which it is refused.
 inline std::string refusal(const std::string& content) {
     return input_error([&] { load_mitsuba_text(content); });

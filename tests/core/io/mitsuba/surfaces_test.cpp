@@ -9,17 +9,6 @@
 using namespace pl;
 using namespace pl::test;
 
-namespace {
-
-/// The only material of a scene with this surface.
-MaterialDescription surface(const std::string& bsdf) {
-    const SceneDescription scene = load_mitsuba_text("<shape type=\"rectangle\">" + bsdf + "</shape>");
-    REQUIRE(scene.materials.size() == 1);
-    return scene.materials[0];
-}
-
-}  // namespace
-
 TEST_CASE("mitsuba: surfaces, by reference, inside of adapters, and with the values of the plugins") {
     const SceneDescription scene =
         load_mitsuba_text("<bsdf type=\"twosided\" id=\"wall\"><bsdf type=\"diffuse\"><rgb "

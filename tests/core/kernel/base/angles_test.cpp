@@ -2,15 +2,11 @@
 #include "core/kernel/base/angles.h"
 
 #include "tests/support/catch.hpp"
+#include "tests/support/numbers.h"
 #include "tests/support/scenes/shapes.h"
 
 using namespace pl;
-
-namespace {
-
-constexpr double kTurn = 6.28318530717958647692;
-
-}  // namespace
+using namespace pl::test;
 
 TEST_CASE("Sine and cosine of turns") {
     test::Uniforms random(1);

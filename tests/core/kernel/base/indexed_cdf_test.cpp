@@ -3,14 +3,14 @@
 #include <algorithm>
 
 #include "tests/support/catch.hpp"
+#include "tests/support/numbers.h"
 #include "tests/support/scenes/shapes.h"
 #include "tests/support/statistics/sampling_rule.h"
 
 using namespace pl;
+using namespace pl::test;
 
 namespace {
-
-constexpr float kAlmostOne = 1.0f - 0x1p-24f;
 
 /// Two distributions of multiples of 1/8, with entries without probability; the index is counted entry by entry.
 struct TwoDistributions {

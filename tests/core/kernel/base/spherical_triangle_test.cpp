@@ -2,14 +2,14 @@
 #include "core/kernel/base/spherical_triangle.h"
 
 #include "tests/support/catch.hpp"
+#include "tests/support/numbers.h"
 #include "tests/support/scenes/shapes.h"
 #include "tests/support/statistics/sampling_rule.h"
 
 using namespace pl;
+using namespace pl::test;
 
 namespace {
-
-constexpr double kPiExact = 3.14159265358979323846;
 
 SphericalTriangle through(Vec3f a, Vec3f b, Vec3f c) {
     return {unpack(glm::normalize(a)), unpack(glm::normalize(b)), unpack(glm::normalize(c))};
@@ -32,8 +32,8 @@ Vec3f sample(const SphericalTriangle& t, float solid_angle, Vec2f u) {
 
 TEST_CASE("Solid angle: octants, slices of a hemisphere and small triangles") {
     const Vec3f x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
-    CHECK(through(x, y, z).solid_angle() == Approx(0.5 * kPiExact));
-    CHECK(through(x, z, y).solid_angle() == Approx(0.5 * kPiExact));  // either winding
+    CHECK(through(x, y, z).solid_angle() == Approx(0.5 * kHalfTurn));
+    CHECK(through(x, z, y).solid_angle() == Approx(0.5 * kHalfTurn));  // either winding
     // Three directions near the horizon: a cap of height 1 - h, less its three slices.
     const auto low = [](float angle) { return Vec3f{std::cos(angle), std::sin(angle), 1e-3f}; };
     const float third = 2.0f * kPi / 3.0f;

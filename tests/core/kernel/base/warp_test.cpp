@@ -4,16 +4,12 @@
 #include <algorithm>
 
 #include "tests/support/catch.hpp"
+#include "tests/support/numbers.h"
 #include "tests/support/scenes/shapes.h"
 #include "tests/support/statistics/sampling_rule.h"
 
 using namespace pl;
-
-namespace {
-
-constexpr float kAlmostOne = 1.0f - 0x1p-24f;
-
-}  // namespace
+using namespace pl::test;
 
 // Two maps with an error of a few roundoffs each, in coordinates up to 1; near the center directions are steep, but
 // lengths are small.

@@ -10,8 +10,8 @@ using namespace pl::test;
 namespace {
 
 /// One volume of a scene whose light tree has four clusters.
-struct Field : TestField {
-    Field() : TestField(4) {
+struct LightField : TestField {
+    LightField() : TestField(4) {
         shape.light_clusters = 4;
         tables = make_arrays<HostTables>(shape, 1);
     }
@@ -26,7 +26,7 @@ struct Field : TestField {
 }  // namespace
 
 TEST_CASE("Lights are chosen in proportion to the irradiance by their cluster, occluded samples included") {
-    Field field;
+    LightField field;
     field.sample(0, 6.0f, 10);
     field.sample(1, 0.0f, 60);  // occluded
     field.sample(3, 2.0f, 10);
@@ -45,7 +45,7 @@ TEST_CASE("Lights are chosen in proportion to the irradiance by their cluster, o
 }
 
 TEST_CASE("Nothing is learned of lights before enough light samples, and from darkness") {
-    Field field;
+    LightField field;
     field.sample(2, 1.0f, kFewestLightSamples - 1);
     field.absorb();
     CHECK(field.learned().empty());
@@ -53,14 +53,14 @@ TEST_CASE("Nothing is learned of lights before enough light samples, and from da
     field.absorb();
     CHECK_FALSE(field.learned().empty());
 
-    Field dark;
+    LightField dark;
     dark.sample(0, 0.0f, 1000);
     dark.absorb();
     CHECK(dark.learned().empty());
 }
 
 TEST_CASE("Light samples of far lights have no cluster, and scenes with few lights have none") {
-    Field field;
+    LightField field;
     field.sample(kNoCluster, 1.0f, 100);
     field.absorb();
     CHECK(field.tables.direct[0] == Approx(1.0f));
@@ -75,7 +75,7 @@ TEST_CASE("Light samples of far lights have no cluster, and scenes with few ligh
 }
 
 TEST_CASE("The choice of lights goes on from what was learned, and follows new light samples") {
-    Field field;
+    LightField field;
     field.sample(0, 4.0f, 100);
     field.absorb();
     CHECK(field.learned().probability(0) == 1.0f);

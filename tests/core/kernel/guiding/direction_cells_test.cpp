@@ -4,16 +4,12 @@
 #include "core/kernel/base/frame.h"
 
 #include "tests/support/catch.hpp"
+#include "tests/support/numbers.h"
 #include "tests/support/scenes/shapes.h"
 
 using namespace pl;
+using namespace pl::test;
 using test::Uniforms;
-
-namespace {
-
-constexpr float kAlmostOne = 1.0f - 0x1p-24f;
-
-}  // namespace
 
 TEST_CASE("A point in a cell leads back to the cell through square and hemisphere and world") {
     Uniforms random(1);

@@ -5,14 +5,13 @@
 
 #include "tests/support/catch.hpp"
 #include "tests/support/field/field_fixture.h"
+#include "tests/support/numbers.h"
 #include "tests/support/statistics/sampling_rule.h"
 
 using namespace pl;
 using namespace pl::test;
 
 namespace {
-
-constexpr float kAlmostOne = 1.0f - 0x1p-24f;
 
 /// Probability of each cell of a grid `fine` times finer than the table's, by the density. Between cell centers the
 /// density is bilinear, so the midpoint of a quarter cell gives its exact mean.

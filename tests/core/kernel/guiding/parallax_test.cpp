@@ -2,6 +2,7 @@
 #include "core/kernel/guiding/parallax.h"
 
 #include "tests/support/catch.hpp"
+#include "tests/support/numbers.h"
 #include "tests/support/scenes/shapes.h"
 
 using namespace pl;
@@ -53,7 +54,6 @@ TEST_CASE("Directions come back from the site, from everywhere") {
 // The midpoint rule with 512 x 1024 points: its error here is below 1e-5.
 TEST_CASE("All directions at a point are all directions at its site") {
     constexpr int kRows = 512;
-    constexpr double kTurn = 6.283185307179586;
     for (const float distance : {0.0f, 0.3f, 0.7f, 0.9f, 5.0f}) {
         const Parallax<One> parallax = at(kSite + distance * kRadius * glm::normalize(Vec3f{1.0f, 2.0f, -0.5f}));
         double sum = 0.0;

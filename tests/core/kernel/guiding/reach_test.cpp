@@ -13,8 +13,8 @@ namespace {
 
 constexpr float kExtent = 10.0f;
 
-struct Field : TestField {
-    Field() : TestField(4) {
+struct ReachField : TestField {
+    ReachField() : TestField(4) {
         shape.extent = kExtent;
         tables = make_arrays<HostTables>(shape, 1);
         tables.mean_radiance[0] = 1.0f;
@@ -37,7 +37,7 @@ double expected_reach(double distance, double weight) {
 /// A path that scatters at the volume, hits a light at a distance, and ends there.
 template <class M>
 double reach_after_one_path(LearningSettings learning) {
-    Field field;
+    ReachField field;
     M method;
     method.field = field.view();
     if constexpr (requires { method.learning = learning; }) method.learning = learning;
@@ -57,7 +57,7 @@ double reach_after_one_path(LearningSettings learning) {
 }  // namespace
 
 TEST_CASE("The reach follows the mean distance, by how much light came from there") {
-    Field field;
+    ReachField field;
     CHECK(field.reach() == Approx(expected_reach(0.0, 0.0)));
     field.add(100.0f, 2.0f);
     field.add(300.0f, 6.0f);
@@ -69,7 +69,7 @@ TEST_CASE("The reach follows the mean distance, by how much light came from ther
 }
 
 TEST_CASE("Light from beyond the scene is as far as the scene is large") {
-    Field field;
+    ReachField field;
     field.add(1e6f, kInfinity);
     CHECK(field.reach() == Approx(expected_reach(static_cast<double>(kExtent), 1e6)).epsilon(1e-4));
 }
@@ -78,8 +78,8 @@ TEST_CASE("The order of training samples does not move the reach by a bit") {
     Uniforms random(1);
     std::vector<Vec2f> records;
     for (int i = 0; i < 1000; ++i) records.push_back({random.between(0.0f, 100.0f), random.between(0.0f, 20.0f)});
-    Field forward;
-    Field backward;
+    ReachField forward;
+    ReachField backward;
     for (std::size_t i = 0; i < records.size(); ++i) {
         forward.add(records[i].x, records[i].y);
         backward.add(records[records.size() - 1 - i].x, records[records.size() - 1 - i].y);
@@ -90,7 +90,7 @@ TEST_CASE("The order of training samples does not move the reach by a bit") {
 TEST_CASE("Bad and huge numbers leave a finite reach") {
     for (const float weight : {0.0f, -1.0f, kNan, kInfinity, 3e38f, 1e-38f})
         for (const float distance : {0.0f, -1.0f, kNan, kInfinity, 3e38f, 1e-38f}) {
-            Field field;
+            ReachField field;
             for (int i = 0; i < 10000; ++i) field.add(weight, distance);
             INFO("weight " << weight << ", distance " << distance);
             const double reach = field.reach();

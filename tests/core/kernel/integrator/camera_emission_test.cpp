@@ -18,7 +18,7 @@ using namespace pl::test;
 
 namespace {
 
-constexpr std::uint32_t kSide = 3;
+constexpr std::uint32_t kPictureSide = 3;
 constexpr float kRadiance = 4.0f;
 /// Share of the middle column of pixels that the lamp covers; all of the left one, nothing of the right one.
 constexpr double kCovered = 0.65;
@@ -44,12 +44,12 @@ HostArray<FilmPixel> render(const HostScene& scene, std::uint64_t seed, std::uin
     const BvhIntersector intersector{view};
     SingleRays<F, BvhIntersector> rays{view, intersector};
     const PathSettings settings{.seed = seed};
-    const Camera camera = make_camera(camera_ahead(), kSide, kSide);
-    HostArray<FilmPixel> pixels(kSide * kSide);
-    const FilmView film{view_of(pixels), kSide, kSide};
+    const Camera camera = make_camera(camera_ahead(), kPictureSide, kPictureSide);
+    HostArray<FilmPixel> pixels(kPictureSide * kPictureSide);
+    const FilmView film{view_of(pixels), kPictureSide, kPictureSide};
     PathCounters counters;
     for (std::uint32_t sample = 0; sample < passes; ++sample) {
-        const PixelGrid grid{kSide, kSide, sample};
+        const PixelGrid grid{kPictureSide, kPictureSide, sample};
         for (std::uint32_t light = 0; refines && sample + 1 == kMarkingPass && light < view.lights.count; ++light)
             mark_lamp_borders<F>({camera, settings, grid, sample + 1}, view, rays, film, light);
         for (std::uint32_t pixel = 0; pixel < pixels.size(); ++pixel) {
@@ -116,11 +116,11 @@ TEST_CASE("Pixels that no border of a lamp crosses keep every bit") {
     const HostArray<FilmPixel> plain = render(scene, 7, 16, false);
     const HostArray<FilmPixel> refined = render(scene, 7, 16, true);
     for (const std::size_t row : {0u, 1u, 2u}) {
-        CHECK(refined[kSide * row + 1].emission.varies == 1);
+        CHECK(refined[kPictureSide * row + 1].emission.varies == 1);
         for (const std::size_t column : {0u, 2u}) {
-            CHECK(refined[kSide * row + column].emission.varies == 0);
-            CHECK(refined[kSide * row + column].sum == plain[kSide * row + column].sum);
-            CHECK(refined[kSide * row + column].second_sum == plain[kSide * row + column].second_sum);
+            CHECK(refined[kPictureSide * row + column].emission.varies == 0);
+            CHECK(refined[kPictureSide * row + column].sum == plain[kPictureSide * row + column].sum);
+            CHECK(refined[kPictureSide * row + column].second_sum == plain[kPictureSide * row + column].second_sum);
         }
     }
 }
@@ -162,11 +162,13 @@ TEST_CASE("Edges between equal lamps, behind other surfaces, behind the camera o
         CameraDescription description = camera_ahead();
         description.eye = eye;
         description.target = target;
-        EmissionContext context{make_camera(description, kSide, kSide), {}, {kSide, kSide, 1}, kMarkingPass};
+        EmissionContext context{
+            make_camera(description, kPictureSide, kPictureSide), {}, {kPictureSide, kPictureSide, 1}, kMarkingPass};
         context.camera.aperture_radius = aperture;
-        HostArray<FilmPixel> pixels(kSide * kSide);
+        HostArray<FilmPixel> pixels(kPictureSide * kPictureSide);
         for (std::uint32_t light = 0; light < view.lights.count; ++light)
-            mark_lamp_borders<FeatureSet{}>(context, view, rays, {view_of(pixels), kSide, kSide}, light);
+            mark_lamp_borders<FeatureSet{}>(context, view, rays, {view_of(pixels), kPictureSide, kPictureSide},
+                                            light);
         return std::count_if(pixels.begin(), pixels.end(), [](const FilmPixel& p) { return p.emission.varies != 0; });
     };
     const auto quad = [](SceneDescription& scene, float left, float right, float z, std::uint32_t material) {

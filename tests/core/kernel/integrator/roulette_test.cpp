@@ -90,8 +90,8 @@ std::uint32_t vertices_before_roulette(const PathSettings& settings, std::uint32
     for (;;) {
         ++state.vertices;
         if (state.vertices <= specular) count_specular(settings, state);
-        constexpr float kAlmostOne = 0.999999f;
-        if (play_roulette(DefaultMethod{}, settings, {}, Vec3f{0.01f}, kAlmostOne, state) == 0.0f)
+        constexpr float kNearOne = 0.999999f;
+        if (play_roulette(DefaultMethod{}, settings, {}, Vec3f{0.01f}, kNearOne, state) == 0.0f)
             return state.vertices - 1;
     }
 }

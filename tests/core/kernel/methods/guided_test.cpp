@@ -4,6 +4,7 @@
 #include "tests/support/catch.hpp"
 #include "tests/support/field/field_fixture.h"
 #include "tests/support/field/guided_methods.h"
+#include "tests/support/numbers.h"
 #include "tests/support/statistics/sampling_rule.h"
 
 using namespace pl;
@@ -14,7 +15,6 @@ namespace {
 constexpr int kRows = 12;     ///< of cos(theta) around z, from -1 to 1
 constexpr int kColumns = 24;  ///< of the angle
 constexpr int kQuadrature = 24;
-constexpr double kTurn = 6.283185307179586;
 
 /// A horizontal surface beside the volume, whose shading normal leans by the given angle.
 SurfacePoint make_surface(double lean_deg, float beside) {

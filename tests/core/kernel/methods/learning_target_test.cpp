@@ -14,12 +14,12 @@ using namespace pl::test;
 
 namespace {
 
-constexpr int kSide = 2;
+constexpr int kTableSide = 2;
 constexpr TableLocation kVertex{0};
 
 /// Two volumes of four cells with learned values.
 struct Learner {
-    TestField field{kSide, {Vec3f{0, 0, 1}, Vec3f{0, 0, 1}}};
+    TestField field{kTableSide, {Vec3f{0, 0, 1}, Vec3f{0, 0, 1}}};
     MethodCounters counters;
 
     Learner() {

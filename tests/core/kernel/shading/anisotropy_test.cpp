@@ -6,6 +6,7 @@
 #include "core/scene/anisotropy.h"
 #include "core/scene/needed_effects.h"
 #include "tests/support/catch.hpp"
+#include "tests/support/numbers.h"
 #include "tests/support/shading/lobe_fixture.h"
 
 using namespace pl;
@@ -14,8 +15,6 @@ using namespace pl::test;
 namespace {
 
 using BrushedGgx = GgxOf<AnisotropicWidth>;
-
-constexpr double kTwoPi = 2.0 * 3.14159265358979323846;
 
 /// Of the x axis, and turned.
 BrushedSurface brushed(float roughness, float anisotropy, float rotation_deg = 0.0f) {
@@ -36,8 +35,8 @@ double integral(Function function) {
     double sum = 0.0;
     for (int h = 0; h < kHeights; ++h)
         for (int s = 0; s < kSectors; ++s)
-            sum += function(direction_at((h + 0.5) / kHeights, kTwoPi * (s + 0.5) / kSectors));
-    return sum * kTwoPi / (double{kHeights} * kSectors);
+            sum += function(direction_at((h + 0.5) / kHeights, kTurn * (s + 0.5) / kSectors));
+    return sum * kTurn / (double{kHeights} * kSectors);
 }
 
 /// One metal triangle in the plane z = 0 with these texture coordinates.
@@ -64,7 +63,7 @@ int widest_angle(const SceneDescription& scene, bool front = true) {
     int widest = 0;
     float most = 0.0f;
     for (int degrees = 0; degrees < 180; degrees += 5) {
-        Vec3f wi = direction_at(0.8, kTwoPi * degrees / 360.0);
+        Vec3f wi = direction_at(0.8, kTurn * degrees / 360.0);
         wi.z *= wo.z;
         const float value = bsdf.eval(point, wi, 0.8f).x;
         if (value > most) widest = degrees;
@@ -172,7 +171,7 @@ TEST_CASE("White anisotropic metals return all light in the mean over directions
         constexpr int kDirections = 256;
         for (int i = 0; i < kDirections; ++i) {
             const double cosine = std::sqrt((i + 0.5) / kDirections);
-            const double angle = kTwoPi * static_cast<double>(random.next());
+            const double angle = kTurn * static_cast<double>(random.next());
             const double returned = returned_light(surface, direction_at(cosine, angle), true, 4000).mean();
             sum += returned;
             if (cosine > 0.1) most = std::max(most, std::fabs(returned - 1.0));
@@ -213,7 +212,7 @@ TEST_CASE("A bent normal turns the facets with it") {
         CHECK(std::fabs(glm::dot(frame.x, normal)) < 1e-5f);
         CHECK(glm::length(glm::cross(frame.x, frame.y) - normal) < 1e-5f);
         const Vec3f u = glm::normalize(grain.axis.u - glm::dot(grain.axis.u, normal) * normal);
-        CHECK(glm::dot(frame.x, u) == Approx(std::cos(25.0 * kTwoPi / 360.0)).epsilon(1e-4));
+        CHECK(glm::dot(frame.x, u) == Approx(std::cos(25.0 * kTurn / 360.0)).epsilon(1e-4));
     }
 }
 

@@ -11,14 +11,13 @@
 #include "core/scene/needed_effects.h"
 #include "core/scene/pack_scene.h"
 #include "tests/support/catch.hpp"
+#include "tests/support/numbers.h"
 #include "tests/support/scenes/shapes.h"
 
 using namespace pl;
 using namespace pl::test;
 
 namespace {
-
-constexpr double kHalfTurn = 3.14159265358979323846;
 
 /// A large floor in the plane z = 0 with the reflectance 1/2.
 SceneDescription floor_with(std::vector<PunctualLightDescription> lights) {
@@ -59,12 +58,12 @@ Vec3f seen_at(const HostScene& packed, float x, std::uint32_t sample, bool next_
     return state.radiance;
 }
 
-/// Mean of many paths, and its standard error, of the red channel.
-struct Mean {
+/// RedMean of many paths, and its standard error, of the red channel.
+struct RedMean {
     double value = 0.0;
     double error = 0.0;
 };
-Mean mean_at(const HostScene& packed, float x, bool next_event) {
+RedMean mean_at(const HostScene& packed, float x, bool next_event) {
     constexpr int kPaths = 200000;
     double sum = 0.0;
     double squares = 0.0;
@@ -148,7 +147,7 @@ TEST_CASE("Many delta lights together with a sky give the sum of their light") {
     const HostScene packed = pack_scene(scene);
     CHECK(packed.far_probability + packed.delta_probability == 1.0f);
     for (const bool next_event : {false, true}) {
-        const Mean mean = mean_at(packed, x, next_event);
+        const RedMean mean = mean_at(packed, x, next_event);
         CAPTURE(next_event, mean.value, mean.error, expected);
         CHECK(mean.error < 0.006 * expected);
         CHECK(std::fabs(mean.value - expected) < 4.0 * mean.error + 1e-4 * expected);

@@ -6,6 +6,7 @@
 
 #include "core/scene/facet_albedo.h"
 #include "tests/support/catch.hpp"
+#include "tests/support/numbers.h"
 #include "tests/support/shading/lobe_fixture.h"
 
 using namespace pl;
@@ -14,7 +15,6 @@ using namespace pl::test;
 namespace {
 
 constexpr double kTolerance = 5e-4;
-constexpr double kHalfTurn = 3.14159265358979323846;
 
 /// The largest error of a table at random roughnesses and angles, half of them up to 12 degrees above the surface and half of them of
 /// nearly smooth facets. Glass is divided by it, so that its error is relative.

@@ -5,6 +5,7 @@
 
 #include "core/scene/pack_scene.h"
 #include "tests/support/catch.hpp"
+#include "tests/support/numbers.h"
 #include "tests/support/scenes/shapes.h"
 #include "tests/support/statistics/sampling_rule.h"
 
@@ -12,8 +13,6 @@ using namespace pl;
 using namespace pl::test;
 
 namespace {
-
-constexpr double kPiExact = 3.14159265358979323846;
 
 /// The far lights of a scene that has a map with these texels.
 HostScene under_map(std::uint32_t width, std::uint32_t height, std::vector<glm::vec3> texels,
@@ -49,10 +48,10 @@ std::vector<NamedMap> hard_maps() {
     return maps;
 }
 
-Vec3f direction_at(double u, double v) {
-    const double longitude = 2.0 * kPiExact * (u - 0.5);
-    return Vec3f{Vec3d{std::sin(kPiExact * v) * std::sin(longitude), std::cos(kPiExact * v),
-                       -std::sin(kPiExact * v) * std::cos(longitude)}};
+Vec3f map_direction(double u, double v) {
+    const double longitude = 2.0 * kHalfTurn * (u - 0.5);
+    return Vec3f{Vec3d{std::sin(kHalfTurn * v) * std::sin(longitude), std::cos(kHalfTurn * v),
+                       -std::sin(kHalfTurn * v) * std::cos(longitude)}};
 }
 
 /// Integral over the sphere by the midpoint rule, `per_turn` columns and half as many rows.
@@ -61,9 +60,9 @@ double over_sphere(int per_turn, const std::function<double(Vec3f)>& value) {
     for (int row = 0; row < per_turn / 2; ++row)
         for (int column = 0; column < per_turn; ++column) {
             const double v = (row + 0.5) / (per_turn / 2);
-            sum += std::sin(kPiExact * v) * value(direction_at((column + 0.5) / per_turn, v));
+            sum += std::sin(kHalfTurn * v) * value(map_direction((column + 0.5) / per_turn, v));
         }
-    return sum * 4.0 * kPiExact * kPiExact / (static_cast<double>(per_turn) * per_turn);
+    return sum * 4.0 * kHalfTurn * kHalfTurn / (static_cast<double>(per_turn) * per_turn);
 }
 
 }  // namespace
@@ -76,7 +75,7 @@ TEST_CASE("The map's middle is along -z, its right along +x, its first row up, a
     for (std::size_t row = 0; row < 4; ++row)
         for (std::size_t column = 0; column < 8; ++column) {
             const Vec3f direction =
-                direction_at((static_cast<double>(column) + 0.5) / 8, (static_cast<double>(row) + 0.5) / 4);
+                map_direction((static_cast<double>(column) + 0.5) / 8, (static_cast<double>(row) + 0.5) / 4);
             CHECK(map_radiance(map, direction).x == Approx(static_cast<float>(row * 8 + column + 1)).margin(1e-4));
         }
     CHECK(map_point(map, {0, 0, -1}).x == 0.5f);
@@ -103,7 +102,7 @@ TEST_CASE("A map in axes of its own is turned as a whole, also mirrored, and sam
         const FarLights& lights = packed.view().far_lights;
         Uniforms random(5);
         for (int i = 0; i < 1000; ++i) {
-            const Vec3f local = direction_at(static_cast<double>(random.next()), static_cast<double>(random.next()));
+            const Vec3f local = map_direction(static_cast<double>(random.next()), static_cast<double>(random.next()));
             CHECK(far_radiance(lights, axes * local).x ==
                   Approx(far_radiance(plain.view().far_lights, local).x).epsilon(1e-3));
             CHECK(far_pdf_sa(lights, axes * local) ==
@@ -183,7 +182,7 @@ TEST_CASE("The light of a linear sky on a plane has its closed form") {
     constexpr float b = 0.8f;
     std::vector<glm::vec3> texels;
     for (int row = 0; row < 128; ++row) {
-        const double cosine = std::cos(kPiExact * (row + 0.5) / 128);
+        const double cosine = std::cos(kHalfTurn * (row + 0.5) / 128);
         texels.insert(texels.end(), 256, glm::vec3(a + b * static_cast<float>(cosine)));
     }
     const HostScene packed = under_map(256, 128, texels, 77.0f);
@@ -193,7 +192,7 @@ TEST_CASE("The light of a linear sky on a plane has its closed form") {
         const FarSample sample = sample_far(packed.view().far_lights, random.square(), random.next());
         moments.add(static_cast<double>(max_of(sample.wi.y, 0.0f) * sample.radiance.x / sample.pdf_sa));
     }
-    const double expected = kPiExact * (static_cast<double>(a) + 2.0 * static_cast<double>(b) / 3.0);
+    const double expected = kHalfTurn * (static_cast<double>(a) + 2.0 * static_cast<double>(b) / 3.0);
     CHECK(mean_equals(moments, {expected, 2e-4 * expected}, 0.01));
 }
 
@@ -203,8 +202,8 @@ TEST_CASE("The sun's disc is sampled evenly") {
         const HostScene packed =
             under_map(0, 0, {}, 0.0f, {.direction = {1, 2, -1}, .radiance = glm::vec3(3), .angle_deg = angle_deg});
         const Sun sun = packed.view().far_lights.sun;
-        const double half_angle = static_cast<double>(angle_deg) / 2.0 * kPiExact / 180.0;
-        const double solid_angle = 2.0 * kPiExact * (1.0 - std::cos(half_angle));
+        const double half_angle = static_cast<double>(angle_deg) / 2.0 * kHalfTurn / 180.0;
+        const double solid_angle = 2.0 * kHalfTurn * (1.0 - std::cos(half_angle));
         CHECK(1.0 / static_cast<double>(sun_pdf_sa(sun, sun.direction)) == Approx(solid_angle).epsilon(1e-4));
         CHECK(sun_pdf_sa(sun, -sun.direction) == 0.0f);
         const Frame frame = make_frame(sun.direction);
@@ -233,7 +232,7 @@ TEST_CASE("Map and sun together bring all of their light, with the density that 
     CHECK(lights.map_probability >= 0.1f);
     CHECK(lights.map_probability <= 0.9f);
     double power = over_sphere(768, [&](Vec3f d) { return static_cast<double>(map_radiance(lights.map, d).x); });
-    power += 2000.0 * 2.0 * kPiExact * (1.0 - std::cos(kPiExact / 180.0));
+    power += 2000.0 * 2.0 * kHalfTurn * (1.0 - std::cos(kHalfTurn / 180.0));
     Uniforms random(7);
     Moments moments;
     for (int i = 0; i < 1000000; ++i) {

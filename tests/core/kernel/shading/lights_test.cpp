@@ -3,6 +3,7 @@
 
 #include "tests/core/kernel/shading/light_density.h"
 #include "tests/support/catch.hpp"
+#include "tests/support/numbers.h"
 #include "tests/support/scenes/shapes.h"
 #include "tests/support/statistics/sampling_rule.h"
 
@@ -10,8 +11,6 @@ using namespace pl;
 using namespace pl::test;
 
 namespace {
-
-constexpr float kAlmostOne = 1.0f - 0x1p-24f;
 
 /// Three lights of different size and brightness around the origin, facing it.
 SceneDescription three_lights() {

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "tests/support/catch.hpp"
+#include "tests/support/numbers.h"
 #include "tests/support/shading/lobe_fixture.h"
 
 using namespace pl;
@@ -14,7 +15,6 @@ namespace {
 
 constexpr float kRoughnesses[] = {SheenFibers::kLeastRoughness, 0.5f, 1.0f};
 constexpr float kCosines[] = {1.0f, 0.6f, 0.15f, 0.02f};
-constexpr double kFullTurn = 2.0 * 3.14159265358979323846;
 
 LobeSurface velvet(float roughness, Vec3f base, Vec3f sheen) {
     SurfaceLobes lobes = rough(SurfaceKind::Velvet, roughness);
@@ -34,7 +34,7 @@ double lambda(double x, double alpha) {
 }
 double sheen_by_formula(Vec3d wo, Vec3d wi, double alpha) {
     const Vec3d h = glm::normalize(wo + wi);
-    const double distribution = (2.0 + 1.0 / alpha) * std::pow(1.0 - h.z * h.z, 0.5 / alpha) / kFullTurn;
+    const double distribution = (2.0 + 1.0 / alpha) * std::pow(1.0 - h.z * h.z, 0.5 / alpha) / kTurn;
     return distribution / ((1.0 + lambda(wo.z, alpha) + lambda(wi.z, alpha)) * 4.0 * wo.z);
 }
 

@@ -13,7 +13,7 @@ using namespace pl::test;
 
 namespace {
 
-constexpr std::size_t kSide = 4;
+constexpr std::size_t kTargetSide = 4;
 constexpr std::size_t kLamp = 0;  ///< cell from which a lamp shines; light samples always choose it
 constexpr std::size_t kSky = 15;  ///< cell from which light comes that light samples do not know
 
@@ -22,15 +22,15 @@ float share_of(const HostTables& tables, std::size_t cell) {
     const auto step = [](const auto& cdf, std::size_t first, std::size_t i) {
         return cdf[first + i] - (i > 0 ? cdf[first + i - 1] : 0.0f);
     };
-    const std::size_t row = cell / kSide;
-    return step(tables.row_cdf, 0, row) * step(tables.column_cdf, row * kSide, cell % kSide);
+    const std::size_t row = cell / kTargetSide;
+    return step(tables.row_cdf, 0, row) * step(tables.column_cdf, row * kTargetSide, cell % kTargetSide);
 }
 
 /// Shares of the two cells after training by targets w L_e, w = q / (q + p_light), as paths bring that the table alone
 /// scatters. All cells are equally large in projected solid angle, so densities are probabilities of cells.
 std::pair<float, float> learned_shares(float lamp_radiance, float sky_radiance) {
     constexpr std::uint32_t kVisits = 1000000;  // so that the prior of the volume's mean vanishes
-    TestField field(kSide, {Vec3f{0, 0, 1}});
+    TestField field(kTargetSide, {Vec3f{0, 0, 1}});
     field.shape.uniform_floor = 0.0f;
     field.shape.rate = LearningRate::SampleMean;
     field.update();
@@ -41,7 +41,7 @@ std::pair<float, float> learned_shares(float lamp_radiance, float sky_radiance) 
     };
     for (int update = 0; update < 400; ++update) {
         std::ranges::fill(field.tables.visits, 19 * kVisits);  // a step of 1/20, with which shares settle
-        for (std::size_t cell = 0; cell < kSide * kSide; ++cell) train(cell, 0.0f, 0.0f);
+        for (std::size_t cell = 0; cell < kTargetSide * kTargetSide; ++cell) train(cell, 0.0f, 0.0f);
         train(kLamp, lamp_radiance, 1.0f);
         train(kSky, sky_radiance, 0.0f);
         field.update();
