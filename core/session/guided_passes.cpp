@@ -127,7 +127,7 @@ PassRequest GuidedPasses::trial_request(const FilmProgress& film, Trial trial, P
     if (is_warm_up) {
         request.sample = film.guiding.rounds();
         request.passes = request.sample + 1;
-        request.use = request.sample < kFewestBeforeVariance ? SampleUse::Film : SampleUse::Trial;
+        request.use = request.sample < kFewestBeforeVariance ? SampleUse::Film : SampleUse::Measured;
     } else {
         if (trial.passes > 0.0)
             request.subset.step = static_cast<std::uint32_t>(

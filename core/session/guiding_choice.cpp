@@ -9,18 +9,28 @@
 namespace pl {
 namespace {
 
-/// Paths per volume that a field has learned from when it is known how good it becomes. With 1000 volumes they are 40 trials of 16384
-/// paths (docs/notebook/2026-11-25-choice-at-512.md).
+/// Paths per volume that a field has learned from: until the first it proves nothing, from the second on it is known how good
+/// it becomes. With 1000 volumes they are 12 and 40 trials of 16384 paths (docs/notebook/2026-11-25-choice-at-512.md).
+constexpr double kYoung = 190.0;
 constexpr double kMature = 640.0;
-/// The least gains that are guided: below 1 at first, since guided paths make a field better; above 1 in the end, since even numbers
-/// take more noise from the baseline's first vertices than the variance of a sample shows (docs/notebook/2026-11-29-shares-of-passes.md).
-constexpr double kLeastGainOfLearning = 0.75;
-constexpr double kLeastGain = 0.85;
+/// The least gains that are guided. Below 1 at first, since guided paths make a field better; above 1 in the end, since even numbers
+/// take more noise from the baseline's first vertices than the variance of a sample shows (docs/notebook/2026-11-26-both-errors.md).
+constexpr double kLeastGainOfYoung = 0.1;
+constexpr double kLeastGainOfLearning = 0.9;
+constexpr double kLeastGain = 1.04;
+/// The least gain by both errors at which a coarse map guides: completing the map takes a few passes, and gains a fifth more.
+constexpr double kLeastGainOfCoarse = 0.9;
+/// The gain by both errors is at most so many times that by variance, which is the surer one: relative variances of small pictures, and of
+/// few samples, are noisy.
+constexpr double kMostOverGain = 1.1;
 /// The gain from which on guiding is taken up again.
-constexpr double kReturningGain = 1.0;
+constexpr double kReturningGain = 1.1;
+/// Whatever its gain, a field is learning fast while the variance of guided paths is below this share of its first measurement.
+constexpr double kFallOfFastLearning = 0.75;
 
-/// Guided paths find hidden light if as many times the share of them brings light as of paths of the baseline. It is 12 on labyrinth and
-/// 17 on staircase, and at most 1.1 where guiding does not pay.
+/// A field that is not mature goes on learning, whatever its gain, while the share of guided paths that bring light is as many times
+/// that of the baseline. It is 12 on labyrinth and 17 on staircase, where the variance of the few paths of the baseline that have
+/// found light tells nothing, and at most 1.1 where guiding does not pay.
 constexpr double kRatioOfHiddenLight = 1.5;
 
 /// Rounds of a warm-up by paths of the baseline, and of both kinds.
@@ -39,6 +49,11 @@ struct WarmUpRounds {
 };
 /// Guided rounds begin at once where fewer paths of the baseline bring light: they find the rest of it.
 constexpr double kLeastLitShare = 0.25;
+/// A clear loss in a warm-up: a gain by both errors below the first, of a field that has learned from so many paths per volume.
+constexpr double kLeastGainOfWarmUp = 0.7;
+constexpr double kLearnedBeforeLoss = 100.0;
+/// Measurements of guided paths until the variance that later ones are compared to.
+constexpr std::uint32_t kMeasurementsOfFirstVariance = 5;
 /// Rounds after which a field that another film interrupts is trusted.
 constexpr std::uint32_t kRoundsOfTrust = 4;
 
@@ -85,7 +100,8 @@ PathCosts PathCosts::of(std::size_t triangles, FeatureSet features, Representati
 void PathEfficiency::add(const PassCounters& counters, double segment_cost) {
     const auto samples = static_cast<double>(counters.variance.samples);
     const auto paths = static_cast<double>(counters.paths);
-    variance_ += counters.variance.relative_mean() * samples;
+    variance_ += counters.variance.mean() * samples;
+    relative_ += counters.variance.relative_mean() * samples;
     samples_ += samples;
     cost_ += segment_cost * static_cast<double>(counters.path.segments);
     paths_ += paths;
@@ -94,6 +110,7 @@ void PathEfficiency::add(const PassCounters& counters, double segment_cost) {
 
 void PathEfficiency::fade(double share) {
     variance_ *= share;
+    relative_ *= share;
     samples_ *= share;
     cost_ *= share;
     paths_ *= share;
@@ -111,15 +128,27 @@ void GuidingChoice::measure_round(const PassCounters& guided, const PassCounters
     ++rounds_;
     learn(guided.paths + baseline.paths, terms);
     if (baseline.variance.samples > 0) baseline_.add(baseline, terms.costs.segment);
-    guided_.add(guided, terms.costs.guided_segment());
+    if (guided.paths > 0) measure_guided(guided, terms);
     spend(guided, baseline, terms);
     if (guided.paths == 0) return;
     predict();
     const WarmUpRounds rounds = WarmUpRounds::of(terms.field);
     // Without a measurable variance of either the field is trusted: the baseline may have found no light at all.
-    const bool pays = gain_.value_or(kLeastGain) >= least_gain();
-    if (rounds_ >= rounds.most || (rounds_ >= rounds.first_choice() && pays)) belief_ = pays;
+    const bool is_coarse = terms.field == GuidingTerms::Field::Coarse;
+    const double gain = gain_ && is_coarse ? gain_of_both_ : gain_.value_or(kLeastGain);
+    const double least = least_gain(terms);
+    // Where light is hidden a young field has not yet met its own rare bright paths, whatever its gain.
+    const bool is_clear =
+        rounds_ >= rounds.first_choice() && gain >= std::max(least, kLeastGainOfLearning) && !finds_hidden_light();
+    if (is_clear || rounds_ >= rounds.most)
+        belief_ = gain >= least;
+    else if (rounds_ >= rounds.first_choice() && loses_clearly())
+        belief_ = false;
     found_hidden_light_ = belief_.value_or(false) && finds_hidden_light();
+}
+
+bool GuidingChoice::loses_clearly() const {
+    return gain_ && learned_ >= kLearnedBeforeLoss && gain_of_both_ < kLeastGainOfWarmUp && !finds_hidden_light();
 }
 
 Trial GuidingChoice::trial_before(std::uint32_t pass) const {
@@ -139,26 +168,35 @@ Trial GuidingChoice::trial_before(std::uint32_t pass) const {
 
 void GuidingChoice::measure_trial(std::uint32_t pass, const PassCounters& guided, const PassCounters& baseline,
                                   const GuidingTerms& terms) {
-    const double kept = takes_second_look() ? 0.0 : kKept;
-    guided_.fade(kept);
-    baseline_.fade(kept);
+    if (takes_second_look()) guided_ = {};
     last_trial_ = pass;
     if (baseline.paths > 0) ++baseline_trials_;
     baseline_.add(baseline, terms.costs.segment);
-    learn(guided.paths, terms);
-    guided_.add(guided, terms.costs.guided_segment());
+    if (guided.paths > 0) {
+        learn(guided.paths, terms);
+        measure_guided(guided, terms);
+    }
     spend(guided, baseline, terms);
+    predict();
+    if (!pays() || decides_after(pass - 1)) decide(terms);
 }
 
 void GuidingChoice::measure_pass(std::uint32_t pass, const PassCounters& counters, const GuidingTerms& terms) {
     if (pays()) learn(counters.paths, terms);
-    if (last_trial_ != pass) return;
+    if (pass < kFewestBeforeVariance) return;
     if (pays())
-        guided_.add(counters, terms.costs.guided_segment());
+        measure_guided(counters, terms);
     else
         baseline_.add(counters, terms.costs.segment);
     predict();
-    if (gain_) belief_ = *gain_ >= (pays() || finds_hidden_light() ? least_gain() : kReturningGain);
+    if (decides_after(pass)) decide(terms);
+}
+
+void GuidingChoice::measure_guided(const PassCounters& counters, const GuidingTerms& terms) {
+    guided_.fade(kKept);
+    guided_.add(counters, terms.costs.guided_segment());
+    if (!first_variance_ && ++guided_measurements_ >= kMeasurementsOfFirstVariance && guided_.is_measured())
+        first_variance_ = guided_.variance();
 }
 
 void GuidingChoice::spend(const PassCounters& guided, const PassCounters& baseline, const GuidingTerms& terms) {
@@ -181,8 +219,13 @@ void GuidingChoice::learn(std::uint64_t paths, const GuidingTerms& terms) {
 
 void GuidingChoice::predict() {
     if (!guided_.is_measured() || !baseline_.is_measured()) return;
-    const double gain = baseline_.variance() * baseline_.cost() / (guided_.variance() * guided_.cost());
-    if (gain > 0.0 && std::isfinite(gain)) gain_ = gain;
+    const double costs = baseline_.cost() / guided_.cost();
+    const double gain = costs * baseline_.variance() / guided_.variance();
+    if (!(gain > 0.0) || !std::isfinite(gain)) return;
+    gain_ = gain;
+    const double relative = costs * baseline_.relative_variance() / guided_.relative_variance();
+    const bool is_known = relative > 0.0 && std::isfinite(relative);
+    gain_of_both_ = is_known ? std::min(std::sqrt(gain * relative), kMostOverGain * gain) : gain;
 }
 
 bool GuidingChoice::finds_hidden_light() const {
@@ -190,12 +233,25 @@ bool GuidingChoice::finds_hidden_light() const {
            guided_.lit_share() > kRatioOfHiddenLight * baseline_.lit_share();
 }
 
-double GuidingChoice::least_gain() const {
+double GuidingChoice::least_gain(const GuidingTerms& terms) const {
+    if (terms.field == GuidingTerms::Field::Coarse) return kLeastGainOfCoarse;
     if (learned_ >= kMature) return kLeastGain;
-    return finds_hidden_light() ? 0.0 : kLeastGainOfLearning;
+    const bool is_fast = first_variance_ && guided_.variance() < kFallOfFastLearning * *first_variance_;
+    const bool is_open = learned_ < kYoung || is_fast || finds_hidden_light();
+    return is_open ? kLeastGainOfYoung : kLeastGainOfLearning;
 }
 
 bool GuidingChoice::takes_second_look() const { return !pays() && rounds_ > 0 && !last_trial_; }
+
+bool GuidingChoice::decides_after(std::uint32_t pass) const {
+    return pass >= (rounds_ > 0 ? kFirstTrial : kSecondTrial + 1);
+}
+
+void GuidingChoice::decide(const GuidingTerms& terms) {
+    // A field that is still learning is given up for variance alone: relative variances need means of many samples.
+    const double gain = learned_ >= kMature ? gain_of_both_ : gain_.value_or(0.0);
+    if (gain_) belief_ = gain >= (pays() || finds_hidden_light() ? least_gain(terms) : kReturningGain);
+}
 
 void GuidingChoice::trust_field() {
     begin_guided();

@@ -42,9 +42,9 @@ public:
 
     bool is_measured() const { return samples_ > 0.0; }
     double samples() const { return samples_; }
-    /// Of a path's sample, over the squared mean of its pixel; NaN before the first.
-    double variance() const { return variance_ / samples_; }
-    double cost() const { return cost_ / paths_; }  ///< of a path; NaN before the first
+    double variance() const { return variance_ / samples_; }           ///< of a path's sample; NaN before the first
+    double relative_variance() const { return relative_ / samples_; }  ///< over the squared mean; likewise
+    double cost() const { return cost_ / paths_; }                     ///< of a path; NaN before the first
     /// Of the paths: those that bring light; NaN before the first.
     double lit_share() const { return lit_ / paths_; }
 
@@ -52,6 +52,7 @@ public:
     template <class Efficiency, class Fn>
     static void each_value(Efficiency& efficiency, Fn&& fn) {
         fn(efficiency.variance_);
+        fn(efficiency.relative_);
         fn(efficiency.samples_);
         fn(efficiency.cost_);
         fn(efficiency.paths_);
@@ -60,6 +61,7 @@ public:
 
 private:
     double variance_ = 0.0;
+    double relative_ = 0.0;
     double samples_ = 0.0;  ///< measured ones
     double cost_ = 0.0;
     double paths_ = 0.0;
@@ -128,29 +130,37 @@ public:
         const auto all = [&](auto&... values) { (fn(values), ...); };
         PathEfficiency::each_value(choice.guided_, fn);
         PathEfficiency::each_value(choice.baseline_, fn);
-        all(choice.learned_, choice.rounds_, choice.baseline_trials_, choice.last_trial_, choice.spent_,
-            choice.trial_cost_, choice.gain_, choice.belief_, choice.found_hidden_light_);
+        all(choice.first_variance_, choice.guided_measurements_, choice.learned_, choice.rounds_,
+            choice.baseline_trials_, choice.last_trial_, choice.spent_, choice.trial_cost_, choice.gain_,
+            choice.gain_of_both_, choice.belief_, choice.found_hidden_light_);
     }
 
-    /// Predicted equal-time factor of guiding over the baseline, by relMSE. Empty before the first decision of this film.
+    /// Predicted equal-time factor of guiding over the baseline, by variance. Empty before the first decision of this film.
     std::optional<double> gain() const { return belief_ ? gain_ : std::nullopt; }
 
 private:
     /// Share of the time of all passes that may be spent on trials.
     static constexpr double kExploration = 0.02;
 
+    void measure_guided(const PassCounters& counters, const GuidingTerms& terms);
     void learn(std::uint64_t paths, const GuidingTerms& terms);
     void predict();
     double guided_cost() const;  ///< of a guided path, in paths of the baseline
     void spend(const PassCounters& guided, const PassCounters& baseline, const GuidingTerms& terms);
     /// Whether guided paths bring light far more often, so that the baseline's variance is only that of the light it has found.
     bool finds_hidden_light() const;
-    double least_gain() const;
+    double least_gain(const GuidingTerms& terms) const;
+    /// Whether the guided rounds of a warm-up have measured a clear loss.
+    bool loses_clearly() const;
     /// Whether the next trial is that after a warm-up which gave up guiding.
     bool takes_second_look() const;
+    bool decides_after(std::uint32_t pass) const;
+    void decide(const GuidingTerms& terms);
 
     PathEfficiency guided_;
     PathEfficiency baseline_;
+    std::optional<double> first_variance_;  ///< of guided paths, after a few measurements
+    std::uint32_t guided_measurements_ = 0;
     double learned_ = 0.0;                     ///< paths per volume of the field that have trained it so far
     std::uint32_t rounds_ = 0;                 ///< of the warm-up
     std::uint32_t baseline_trials_ = 0;        ///< after it
@@ -158,6 +168,7 @@ private:
     double spent_ = 0.0;                       ///< on rounds and trials, in passes of the baseline
     double trial_cost_ = 0.0;                  ///< likewise, on the last one
     std::optional<double> gain_;
+    double gain_of_both_ = 0.0;        ///< geometric mean of gain_ and that by relative variance, bounded
     std::optional<bool> belief_;       ///< whether guiding pays
     bool found_hidden_light_ = false;  ///< by the warm-up
 };
