@@ -24,9 +24,10 @@ public:
         const std::uint32_t group = first / kGroupSize;
         kernels_.find_points(rows, rays.ray_groups() + group, rays.hit_groups() + group, points_, groups_);
     }
-    /// Finds them one by one, for scenes with instances.
+    /// Finds them one by one, for scenes with instances. Apart: the same for all methods.
     template <FeatureSet F>
-    void find_singly(const SceneView& scene, const RayBatch& rays, std::uint32_t first, std::uint32_t end) {
+    [[gnu::noinline]] void find_singly(const SceneView& scene, const RayBatch& rays, std::uint32_t first,
+                                       std::uint32_t end) {
         first_ = first;
         groups_ = pl::group_count(end - first);
         for (std::uint32_t ray = first; ray < end; ++ray)

@@ -8,13 +8,6 @@
 
 namespace pl {
 
-/// Paths of a block by what the ends of their segments are.
-struct SegmentEnds {
-    std::uint64_t observed = 0;  ///< surfaces whose observations are made here
-    std::uint64_t located = 0;   ///< surfaces that reflect and are not specular
-    std::uint64_t reached = 0;   ///< vertices from which the path may go on
-};
-
 /// Hooks of a method that has none in lanes.
 template <FeatureSet F, Method M>
 struct TableLearning {
@@ -36,16 +29,33 @@ public:
                  .open = paths_.rows.open_groups() + first / kGroupSize};
         emitted_ = {};
     }
+    /// Looks up the volumes at surfaces that reflect and are not specular: `located`. `reached`: vertices from which paths may go on.
+    void look_up(std::uint64_t located, [[maybe_unused]] std::uint64_t reached, VertexBlock<F, M>& vertices) {
+        locate(located, vertices);
+        if constexpr (!std::is_empty_v<typename M::Light> || learns_lights<F, M> || kTellsChains<F, M>)
+            for_bits(reached, [&](std::uint32_t k) { vertices.set_vertex(k, vertex(k)); });
+    }
     /// Told of the emission at the end of the segment of path k.
     void add_emission(std::uint32_t k, const Observation& observation) {
         emitted_.of[k] = rms(observation.emitted) * (is_indirect() ? observation.direction_share : 1.0f);
     }
-    /// Looks up the volumes at the ends of the segments, and completes the training samples there.
-    void observe(const SegmentEnds& ends, VertexBlock<F, M>& vertices) {
-        look_up(ends.located, vertices);
-        if constexpr (!std::is_empty_v<typename M::Sample>) complete(ends.observed);
-        if constexpr (!std::is_empty_v<typename M::Light> || learns_lights<F, M> || kTellsChains<F, M>)
-            for_bits(ends.reached, [&](std::uint32_t k) { vertices.set_vertex(k, vertex(k)); });
+    /// Completes the training samples of the paths in `observed`, at the ends of their segments.
+    void complete([[maybe_unused]] std::uint64_t observed) {
+        if constexpr (!std::is_empty_v<typename M::Sample>) {
+            BlockFloats targets;
+            BlockBits samples, clamped;
+            const float most = kMaxRecordedUnits * paths_.method.field.radiance_unit;
+            paths_.kernels.complete_samples(rows_, is_indirect(), most, emitted_, targets, samples, clamped);
+            const std::uint64_t completed = samples.bits() & observed;
+            MethodCounters& counters = paths_.counters.path.method;
+            counters.records += static_cast<std::uint64_t>(std::popcount(completed));
+            counters.clamped_records += static_cast<std::uint64_t>(std::popcount(clamped.bits() & observed));
+            for_bits(completed, [&](std::uint32_t k) {
+                OpenSample<TableField> sample = paths_.rows.open_sample(first_ + k);
+                sample.distance = rows_.block.hits[k / kGroupSize].t[k % kGroupSize];
+                paths_.guided.record({sample, targets.of[k]});
+            });
+        }
     }
     /// Contribution estimates, one per path, at the vertices in `reached`.
     const float* estimate(std::uint64_t reached) {
@@ -78,12 +88,12 @@ private:
             return paths_.method.learning.light == LearnedLight::Indirect;
         return false;
     }
-    void look_up(std::uint64_t located, const VertexBlock<F, M>& vertices) {
+    void locate(std::uint64_t located, const VertexBlock<F, M>& vertices) {
         const TableField& field = paths_.method.field;
         const MixtureSettings& mixture = paths_.method.mixture;
         BlockBits unknown;
         if (!field.normals.empty()) {
-            if constexpr (F.has(Feature::Blends) || F.has(Feature::Instances)) look_up_singly(located, vertices);
+            if constexpr (F.has(Feature::Blends) || F.has(Feature::Instances)) locate_singly(located, vertices);
             rows_.served.set(located);
             rows_.served = paths_.kernels.look_up_volumes(
                 {.nodes = field.tree.nodes.data,
@@ -106,28 +116,13 @@ private:
         paths_.counters.path.method.lookup_misses += static_cast<std::uint64_t>(std::popcount(missed));
     }
     /// Volumes that are not looked up ahead: of instances, and of materials that show others.
-    void look_up_singly(std::uint64_t located, const VertexBlock<F, M>& vertices) {
+    void locate_singly(std::uint64_t located, const VertexBlock<F, M>& vertices) {
         if (paths_.can_look_ahead()) located &= ~paths_.lookups_of(first_).found();
         for_bits(located, [&](std::uint32_t k) {
             PointGroup& points = rows_.block.points[k / kGroupSize];
             const TableLocation at = paths_.method.field.locate(vertices.surface(k, rows_.block.points));
             points.volume[k % kGroupSize] = at.volume;
             points.node[k % kGroupSize] = at.node;
-        });
-    }
-    void complete(std::uint64_t observed) {
-        BlockFloats targets;
-        BlockBits samples, clamped;
-        const float most = kMaxRecordedUnits * paths_.method.field.radiance_unit;
-        paths_.kernels.complete_samples(rows_, is_indirect(), most, emitted_, targets, samples, clamped);
-        const std::uint64_t completed = samples.bits() & observed;
-        MethodCounters& counters = paths_.counters.path.method;
-        counters.records += static_cast<std::uint64_t>(std::popcount(completed));
-        counters.clamped_records += static_cast<std::uint64_t>(std::popcount(clamped.bits() & observed));
-        for_bits(completed, [&](std::uint32_t k) {
-            OpenSample<TableField> sample = paths_.rows.open_sample(first_ + k);
-            sample.distance = rows_.block.hits[k / kGroupSize].t[k % kGroupSize];
-            paths_.guided.record({sample, targets.of[k]});
         });
     }
 

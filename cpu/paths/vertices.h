@@ -40,11 +40,13 @@ public:
         if constexpr (kHooksInLanes<M>)
             directions_.complete(vertices_);
         else
-            add_directions();
+            add_directions((paths_.samples_lights() ? reached : continuing) & ~vertices_.layered());
         if constexpr (F.has(Feature::NextEventEstimation)) {
             if (paths_.samples_lights()) request_lights(reached, shadows);
         }
-        return first_bits(count) & ~scatter(continuing);
+        const std::uint64_t going_on = scatter(continuing);
+        terminate(ended_ | (reached & ~continuing));
+        return first_bits(count) & ~going_on;
     }
 
 private:
@@ -114,7 +116,7 @@ private:
         for_bits(first_bits(count) & ~hit, [&](std::uint32_t k) { miss(path(k)); });
         const std::uint64_t reached = scattering & ~truncated;
         observe(hit, marks.emits.bits() & hit, scattering, reached);
-        terminate(truncated);
+        ended_ = truncated;
         keep_vertices(reached);
         return reached;
     }
@@ -204,17 +206,15 @@ private:
                 if (chain.is_open || chain.weight != Vec3f{1.0f} || is_in(specular_, k))
                     single_ |= std::uint64_t{1} << k;
             });
-        for_bits(emitting & ~single_, [&](std::uint32_t k) {
-            [[maybe_unused]] const Observation emission = add_emission_at(k);
+        if constexpr (LaneLearning<M>) learning_.look_up(scattering & ~specular_, reached, vertices_);
+        for_bits(emitting | single_, [&](std::uint32_t k) {
+            [[maybe_unused]] const Observation emission = is_in(emitting, k) ? add_emission_at(k) : Observation{};
+            if constexpr (!Hookless<M>) {
+                if (is_in(single_, k)) return observe_singly(k, emission, is_in(scattering, k), is_in(reached, k));
+            }
             if constexpr (LaneLearning<M>) learning_.add_emission(k, emission);
         });
-        if constexpr (LaneLearning<M>)
-            learning_.observe({hit & ~single_, scattering & ~specular_, reached}, vertices_);
-        if constexpr (!Hookless<M>)
-            for_bits(single_, [&](std::uint32_t k) {
-                observe_singly(k, is_in(emitting, k) ? add_emission_at(k) : Observation{}, is_in(scattering, k),
-                               is_in(reached, k));
-            });
+        if constexpr (LaneLearning<M>) learning_.complete(hit & ~single_);
     }
     void observe_singly(std::uint32_t k, Observation observation, bool scatters, [[maybe_unused]] bool reaches) {
         observation.albedo = vertices_.albedo(k);
@@ -296,19 +296,14 @@ private:
             for_bits(continuing & specular_, [&](std::uint32_t k) {
                 paths_.rows.beside(path(k)).chain.weight *= group(k).roulette_weight[k % kGroupSize];
             });
-        terminate(reached & ~continuing);
         return continuing;
     }
 
-    void add_directions() {
+    void add_directions(std::uint64_t vertices) {
         directions_.clear();
-        const auto add = [&](std::uint32_t k) {
+        for_bits(vertices, [&](std::uint32_t k) {
             directions_.add(k, surface_at(k), vertices_.vertex(k), scatter_uniforms_of(k));
-        };
-        if (paths_.samples_lights())
-            vertices_.for_lambert(add);
-        else
-            vertices_.for_continuing_lambert(add);
+        });
         directions_.complete(vertices_);
     }
     ScatterUniforms scatter_uniforms_of(std::uint32_t k) const {
@@ -348,23 +343,22 @@ private:
         paths_.kernels.scatter_paths(block_, directions_.groups(),
                                      paths_.rows.rays.ray_groups() + first_ / kGroupSize, lit);
         std::uint64_t going_on = lit.bits();
-        leave_lambert(going_on, at_lambert & ~going_on);
+        const std::uint64_t black = at_lambert & ~going_on;
+        paths_.counters.path.zero_directions += static_cast<std::uint64_t>(std::popcount(black));
+        ended_ |= black;
+        leave_lambert(going_on);
         if constexpr (F.has_any(kLobeFeatures))
             for_bits(continuing & vertices_.layered(), [&](std::uint32_t k) {
                 if (scatter_layered_at(k) == PathStatus::Continues) going_on |= std::uint64_t{1} << k;
             });
         return going_on;
     }
-    /// Paths leave Lambert reflectors: into a direction, and into one that is black.
-    void leave_lambert(std::uint64_t going_on, std::uint64_t black) {
-        paths_.counters.path.zero_directions += static_cast<std::uint64_t>(std::popcount(black));
+    /// Paths leave Lambert reflectors.
+    void leave_lambert(std::uint64_t going_on) {
         if constexpr (LaneLearning<M>) learning_.scattered(directions_.groups(), going_on);
         if constexpr (LaneLearning<M> && kTellsChains<F, M>)
             for_bits(going_on & single_, [&](std::uint32_t k) { paths_.rows.beside(path(k)).chain = {}; });
-        if constexpr (!kHooksInLanes<M>) {
-            terminate(black);
-            for_bits(going_on, [&](std::uint32_t k) { leave(k); });
-        }
+        if constexpr (!kHooksInLanes<M>) for_bits(going_on, [&](std::uint32_t k) { leave(k); });
         if constexpr (learns_lights<F, M>) {
             if (!paths_.setup.scene.light_tree.empty())
                 for_bits(going_on, [&](std::uint32_t k) {
@@ -397,6 +391,7 @@ private:
     BlockRows block_{};
     std::uint64_t specular_ = 0;  ///< paths at specular surfaces
     std::uint64_t single_ = 0;    ///< paths whose observations are made path by path
+    std::uint64_t ended_ = 0;  ///< paths that end at a vertex, but for those that roulette or a layered vertex ends
     VertexBlock<F, M> vertices_;
     SurfaceBlock surfaces_;        ///< unless the method looks volumes up ahead
     float estimates_[kPathBlock];  ///< of contributions
