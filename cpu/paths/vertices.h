@@ -109,7 +109,9 @@ private:
         const std::uint64_t hit = marks.hit.bits() & first_bits(count);
         std::uint64_t scattering = marks.scatters.bits() & hit;
         specular_ = 0;
-        if constexpr (SingleSurfaces<F>::kAny) scattering = reach_singly(hit, scattering);
+        if constexpr (SingleSurfaces<F>::kAny)
+            specular_ = singles_.reach(paths_.setup.path, block_, paths_.rows.rays.ray_groups() + first_ / kGroupSize,
+                                       vertices_, hit, scattering);
         const std::uint64_t truncated = marks.is_deepest.bits() & scattering;
         paths_.counters.path.segments += count;
         paths_.counters.path.truncated += static_cast<std::uint64_t>(std::popcount(truncated));
@@ -150,46 +152,6 @@ private:
             share = add_emission<F>(paths_.context, ahead, surface, emitted, state);
         });
         return {.emitted = emitted, .direction_share = share};
-    }
-
-    // Surfaces that lanes do not know.
-
-    /// Completes the vertices at such surfaces. Returns the paths at surfaces that reflect; `scattering`: as lanes know it.
-    std::uint64_t reach_singly(std::uint64_t hit, std::uint64_t scattering) {
-        for_bits(hit, [&](std::uint32_t k) {
-            const std::uint32_t material = block_.points[k / kGroupSize].material[k % kGroupSize];
-            if (singles_.has_normal(material)) bend_normal(k);
-            if (!singles_.has_bsdf(material)) return;
-            const std::uint64_t bit = std::uint64_t{1} << k;
-            scattering = set_bsdf(k) ? scattering | bit : scattering & ~bit;
-        });
-        return scattering;
-    }
-    void bend_normal(std::uint32_t k) {
-        SurfacePoint flat = surface_at(k);
-        flat.shading_normal = flat.geometric_normal;
-        vertices_.set_normal(k,
-                             with_shading_normal<F>(paths_.setup.scene, flat, hit_weights(hit_at(k))).shading_normal);
-    }
-    /// Returns whether the surface reflects.
-    bool set_bsdf(std::uint32_t k) {
-        const SurfacePoint surface = surface_at(k);
-        const Bsdf<F> bsdf = make_bsdf<F>(paths_.setup.scene, surface, hit_weights(hit_at(k)),
-                                          -paths_.rows.rays.ray(path(k)).direction);
-        vertices_.set_albedo(k, bsdf.albedo());
-        if constexpr (F.has_any(kLobeFeatures)) {
-            if (!bsdf.is_lambert()) vertices_.set_layered(k, surface, bsdf);
-            if (bsdf.is_specular()) count_specular_at(k);
-        }
-        return bsdf.scatters();
-    }
-    void count_specular_at(std::uint32_t k) requires(F.has_any(kLobeFeatures)) {
-        specular_ |= std::uint64_t{1} << k;
-        State state;
-        state.vertices = group(k).vertices[k % kGroupSize];
-        state.specular.vertices = group(k).specular[k % kGroupSize];
-        count_specular(paths_.setup.path, state);
-        group(k).specular[k % kGroupSize] = state.specular.vertices;
     }
 
     // The hooks of methods.

@@ -126,7 +126,7 @@ void fill_for_roulette(Block& block, float* estimates, Uniforms& random) {
         paths.throughput.set(lane, random.cube(0.0f, 2.0f));
         paths.survival[lane] = random.next();
         paths.vertices[lane] = random.below(7);
-        paths.specular[lane] = random.below(paths.vertices[lane] + 1);
+        paths.specular[lane] = random.below(4) == 0 ? random.below(paths.vertices[lane] + 1) : 0;
         block.vertices[i / kGroupSize].albedo.set(lane, random.cube(0.0f, 1.0f));
         block.scatter[i / kGroupSize].rows[3][lane] = random.next();
         estimates[i] = random.below(20) == 0 ? kInfinity : random.between(0.0f, 2.0f);
@@ -149,7 +149,7 @@ Played play(const LaneKernels& kernels, const PathSettings& settings, bool with_
     const auto block = std::make_unique<Block>();
     Uniforms random(3);
     Played played;
-    for (int round = 0; round < 40; ++round) {
+    for (int round = 0; round < 60; ++round) {
         float estimates[kPathBlock];
         fill_for_roulette(*block, estimates, random);
         PathGroup before[kBlockGroups];

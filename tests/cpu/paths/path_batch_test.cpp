@@ -113,7 +113,10 @@ SceneDescription room_of_surfaces() {
         {.name = "pane", .kind = SurfaceKind::Pane},
         {.name = "velvet", .albedo = gray, .kind = SurfaceKind::Velvet, .roughness = 0.5f},
         {.name = "relief", .albedo = gray, .textures = {.normal = 1}},
-        {.name = "polished relief", .albedo = gray, .kind = SurfaceKind::Plastic, .textures = {.albedo = 0, .normal = 1}},
+        {.name = "polished relief",
+         .albedo = gray,
+         .kind = SurfaceKind::Plastic,
+         .textures = {.albedo = 0, .normal = 1}},
         {.name = "rust", .albedo = {}, .kind = SurfaceKind::Conductor, .blend = {.other = 0}},
         {.name = "stains", .albedo = gray, .blend = {.other = first}},
     };
