@@ -90,6 +90,15 @@ struct alignas(64) PointGroup {
     std::uint32_t node[kGroupSize] = {};                           ///< and its node
     std::uint32_t wanted = 0;                                      ///< one bit per lane: its volume is looked up
     std::uint32_t cells = 0;  ///< one bit per lane in `wanted`: its place is a cell, once that is read one with nodes
+
+    /// Without the place.
+    void set(std::uint32_t lane, const SurfacePoint& point) {
+        position.set(lane, point.position);
+        geometric_normal.set(lane, point.geometric_normal);
+        position_error[lane] = point.position_error;
+        material[lane] = point.material;
+        front[lane] = point.front ? 1 : 0;
+    }
 };
 
 /// The volumes of a VertexGroup for a method guided by tables. Lanes that were never set have no volume.
@@ -131,13 +140,6 @@ struct alignas(64) DirectionGroup {
         bsdf_pdf_sa[lane] = sample.bsdf_pdf_sa;
         bin[lane] = sample.bin;
     }
-};
-
-/// The paths of a VertexGroup, scattered into sampled directions.
-struct alignas(64) ScatteredGroup {
-    std::int32_t is_lit[kGroupSize] = {};  ///< 0: f cos is 0 in the direction, or its density is
-    VectorGroup weight;                    ///< f cos / pdf
-    VectorGroup origin;                    ///< of the ray in the direction
 };
 
 /// An emissive triangle with all that a light sample on it needs, next to each other.
@@ -227,8 +229,19 @@ struct alignas(64) PathGroup {
     VectorGroup throughput, radiance;
     float direction_pdf_sa[kGroupSize] = {}, survival[kGroupSize] = {};
     std::uint32_t vertices[kGroupSize] = {};
-    VectorGroup weight;                      ///< f cos / pdf at the last vertex
-    float roulette_weight[kGroupSize] = {};  ///< 1 / survival probability of the roulette there
+    std::uint32_t specular[kGroupSize] = {};  ///< SpecularCount::vertices
+    VectorGroup weight;                       ///< f cos / pdf at the last vertex
+    float roulette_weight[kGroupSize] = {};   ///< 1 / survival probability of the roulette there
+
+    /// The path of `lane`, between two vertices, continues in `place` of `to`.
+    void move(std::uint32_t lane, PathGroup& to, std::uint32_t place) const {
+        to.throughput.set(place, throughput.get(lane));
+        to.radiance.set(place, radiance.get(lane));
+        to.direction_pdf_sa[place] = direction_pdf_sa[lane];
+        to.survival[place] = survival[lane];
+        to.vertices[place] = vertices[lane];
+        to.specular[place] = specular[lane];
+    }
 };
 
 /// Calls visit(i) for every bit i that is set.
@@ -264,7 +277,7 @@ struct SegmentMarks {
     BlockBits is_deepest;  ///< the vertex is the last one that the settings allow
 };
 
-/// The surfaces of a scene of Lambert reflectors as plain pointers.
+/// The surfaces of a scene as plain pointers, as Lambert reflectors without images.
 struct SurfaceRows {
     const Material* materials;
     const TrianglePlane* planes;
@@ -273,9 +286,16 @@ struct SurfaceRows {
     const Vec3f* normals;
 };
 
+/// Primitives of instances have no entry in the arrays of the scene.
+template <FeatureSet F>
+bool shows_instances(const SceneView& scene) {
+    return F.has(Feature::Instances) && !scene.instances.empty();
+}
+
 template <FeatureSet F>
 SurfaceRows surface_rows(const SceneView& scene) {
-    const bool is_smooth = F.has(Feature::SmoothNormals) && !scene.triangle_normals.empty();
+    const bool is_smooth =
+        F.has(Feature::SmoothNormals) && !scene.triangle_normals.empty() && !shows_instances<F>(scene);
     return {.materials = scene.materials.data,
             .planes = scene.planes.data,
             .triangle_normals = is_smooth ? scene.triangle_normals.data : nullptr,
@@ -285,7 +305,7 @@ SurfaceRows surface_rows(const SceneView& scene) {
 /// Rows of a block of paths. Groups of arrays have one entry per group.
 struct BlockRows {
     const HitGroup* hits;
-    const PointGroup* points;  ///< at the hits
+    PointGroup* points;  ///< at the hits
     const UniformGroup* scatter;
     const UniformGroup* light;  ///< null: lights are not sampled
     CounterGroup* counters;
@@ -327,6 +347,11 @@ struct alignas(64) OpenGroup {
     void start(std::uint32_t lane) {
         volume[lane] = kNoVolume;
         first[lane] = 0.0f;
+    }
+    void set(std::uint32_t lane, const OpenSample<TableField>& sample) {
+        volume[lane] = sample.entry.volume;
+        cell[lane] = sample.entry.cell;
+        bsdf_ratio[lane] = sample.bsdf_ratio;
     }
     void move(std::uint32_t lane, OpenGroup& to, std::uint32_t place) const {
         to.volume[place] = volume[lane];

@@ -72,10 +72,7 @@ struct LaneKernels {
     /// cannot contribute.
     void (*weigh_lights)(const VertexGroup* vertices, const DirectionGroup* directions, LightSampleGroup* samples,
                          std::uint32_t groups);
-    /// Scatters every path into its direction, see scatter_lambert().
-    void (*scatter)(const VertexGroup* vertices, const DirectionGroup* directions, ScatteredGroup* scattered,
-                    std::uint32_t groups);
-    /// The vertices at the ends of a block's segments: surfaces, reflectances, and numbers of vertices. Rows of paths that hit nothing
+    /// The vertices at the ends of a block's segments: surfaces, reflectances as of Lambert reflectors, and numbers of vertices. Rows of paths that hit nothing
     /// are arbitrary.
     void (*reach_vertices)(const SurfaceRows& scene, std::uint32_t max_depth, const BlockRows& block,
                            SegmentMarks& marks);
@@ -83,7 +80,8 @@ struct LaneKernels {
     /// contributions, one per path of the block; null: PathState::survival.
     void (*play_roulette)(const PathSettings& settings, const BlockRows& block, const float* estimates,
                           BlockBits& continuing);
-    /// Sends every path of a block into its direction, and marks those that are lit by it, see scatter_lambert().
+    /// Sends paths of a block into their directions, see scatter_lambert(). `lit`: comes in as these paths, and leaves as those of them
+    /// that are lit by their directions. The rays and densities of the others are then arbitrary.
     void (*scatter_paths)(const BlockRows& block, const DirectionGroup* directions, RayGroup* rays, BlockBits& lit);
     /// Appends the shadow rays of a block's light samples to the `count` rays of a batch, whose t_max is 1, and returns the number of
     /// rays then. `lit`: comes in as the paths that have light samples, and leaves as those that have shadow rays, whose contributions
@@ -101,7 +99,7 @@ struct LaneKernels {
     /// target. Marks the samples, and those that are clamped.
     void (*complete_samples)(const LearningRows& rows, bool is_indirect, float most, const BlockFloats& emitted,
                              BlockFloats& targets, BlockBits& samples, BlockBits& clamped);
-    /// Opens training samples for the paths in `scattered`, and none for the others.
+    /// Opens training samples for the paths in `scattered`.
     void (*open_samples)(const LearningRows& rows, const DirectionGroup* directions, const BlockBits& scattered);
     /// Whether any cell of a volume has new training samples.
     bool (*has_samples)(const TableUpdateView& field, std::uint32_t volume);

@@ -11,7 +11,7 @@ inline PlacementRows rows_of(const SceneView& scene) {
     return {.triangles = scene.triangles.data, .planes = scene.planes.data, .positions = scene.positions.data};
 }
 
-/// The points of at most kPathBlock rays, none of which hits an instance. Bit-identical to make_surface_point().
+/// The points of at most kPathBlock rays. Bit-identical to make_flat_point().
 class SurfaceBlock {
 public:
     explicit SurfaceBlock(const LaneKernels& kernels = best_lane_kernels()) : kernels_(kernels) {}
@@ -24,21 +24,23 @@ public:
         const std::uint32_t group = first / kGroupSize;
         kernels_.find_points(rows, rays.ray_groups() + group, rays.hit_groups() + group, points_, groups_);
     }
+    /// Finds them one by one, for scenes with instances. Apart: the same for all methods.
+    template <FeatureSet F>
+    [[gnu::noinline]] void find_singly(const SceneView& scene, const RayBatch& rays, std::uint32_t first,
+                                       std::uint32_t end) {
+        first_ = first;
+        groups_ = pl::group_count(end - first);
+        for (std::uint32_t ray = first; ray < end; ++ray)
+            if (const Hit hit = rays.hit(ray); hit.found())
+                points_[(ray - first) / kGroupSize].set((ray - first) % kGroupSize,
+                                                        make_flat_point<F>(scene, hit, -rays.ray(ray).direction));
+    }
     /// The points of ray `first` of find() and of those behind it; undefined for rays that miss.
     PointGroup* points() { return points_; }
     const PointGroup* points() const { return points_; }
     /// Number of groups with points.
     std::uint32_t group_count() const { return groups_; }
 
-    /// The surface point at the hit of a ray.
-    template <FeatureSet F>
-    SurfacePoint surface(const SceneView& scene, const Hit& hit, std::uint32_t ray) const {
-        // Not copied without need: the wide loads of a copy would stall, since narrower stores do not forward to them.
-        if constexpr (F.has_any(kNormalFeatures))
-            return with_shading_normal<F>(scene, flat_point(ray, hit.primitive), hit_weights(hit));
-        else
-            return flat_point(ray, hit.primitive);
-    }
     /// The surface point with the geometric normal as shading normal.
     SurfacePoint flat_point(std::uint32_t ray, std::uint32_t primitive) const {
         const PointGroup& group = points_[(ray - first_) / kGroupSize];

@@ -155,13 +155,6 @@ void weigh_lights(const VertexGroup* vertices, const DirectionGroup* directions,
     });
 }
 
-void scatter(const VertexGroup* vertices, const DirectionGroup* directions, ScatteredGroup* scattered,
-             std::uint32_t groups) {
-    for_vertex_lanes(vertices, groups, [&](const VertexLanes& lanes, std::uint32_t group) {
-        lanes.scatter(directions[group], scattered[group]);
-    });
-}
-
 void reach_vertices(const SurfaceRows& scene, std::uint32_t max_depth, const BlockRows& block, SegmentMarks& marks) {
     reach_vertices_of_groups(scene, max_depth, block, marks);
 }
@@ -176,7 +169,7 @@ void play_roulette(const PathSettings& settings, const BlockRows& block, const f
 
 void scatter_paths(const BlockRows& block, const DirectionGroup* directions, RayGroup* rays, BlockBits& lit) {
     mark_path_lanes(block, lit, [&](const PathLanes& lanes, std::uint32_t group) {
-        return lanes.scatter(directions[group], rays[group]);
+        return lanes.scatter(directions[group], lit.groups[group], rays[group]);
     });
 }
 
@@ -253,7 +246,6 @@ constexpr LaneKernels lane_kernels_named(const char* name) {
             sample_chosen_lights,
             sample_far_lights,
             weigh_lights,
-            scatter,
             reach_vertices,
             play_roulette,
             scatter_paths,

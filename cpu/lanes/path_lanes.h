@@ -1,5 +1,5 @@
-// The steps of the integrator for vectors of paths that meet Lambert reflectors alone: camera rays, vertices, and shadow rays that are
-// packed into a batch. Included by one file per instruction set; see lanes.h. Bit-identical to camera_ray() and to the steps of one path
+// The steps of the integrator for vectors of paths that meet Lambert reflectors: camera rays, vertices, and shadow rays that are packed
+// into a batch. Included by one file per instruction set; see lanes.h. Bit-identical to camera_ray() and to the steps of one path
 // (core/kernel/integrator).
 #pragma once
 
@@ -116,7 +116,9 @@ public:
     PL_INLINE std::uint32_t play_roulette(const PathSettings& settings, const UniformGroup& uniforms,
                                           const float* estimates) const {
         const LaneFloat survival = row(paths_.survival) * max_component(vector(vertices_.albedo));
-        const LaneInt plays = load_lanes<LaneUint>(paths_.vertices + first()) >= settings.roulette_start;
+        const auto counted =
+            load_lanes<LaneUint>(paths_.vertices + first()) - load_lanes<LaneUint>(paths_.specular + first());
+        const LaneInt plays = counted >= settings.roulette_start;
         const RouletteRound<Lanes> round = pl::play_roulette<Lanes>(
             settings, estimates == nullptr ? survival : row(estimates), survival, row(uniforms.rows[3]));
         const LaneFloat weight = select(plays, round.weight, broadcast(1.0f));
@@ -126,12 +128,14 @@ public:
         return mask_bits(~(plays & round.ends)) << first();
     }
 
-    /// Scatters the paths into their directions, see scatter_lambert(). Returns the lanes of those that are lit by it.
-    PL_INLINE std::uint32_t scatter(const DirectionGroup& directions, RayGroup& rays) const {
+    /// Scatters the paths of `lanes` into their directions, see scatter_lambert(). Returns the lanes of those that are lit by it.
+    PL_INLINE std::uint32_t scatter(const DirectionGroup& directions, std::uint32_t lanes, RayGroup& rays) const {
         const Real3<Lanes> wi = vector(directions.wi);
         const VertexLanes::Scattered to = VertexLanes(vertices_, first()).scatter(directions);
         store(to.weight, paths_.weight);
-        store(product(vector(paths_.throughput), to.weight), paths_.throughput);
+        const Real3<Lanes> throughput = vector(paths_.throughput);
+        const LaneInt scattered = lanes_of(lanes);
+        store(select(scattered, product(throughput, to.weight), throughput), paths_.throughput);
         store(row(directions.pdf_sa), paths_.direction_pdf_sa);
         store(to.origin.x, rays.origin_x);
         store(to.origin.y, rays.origin_y);
@@ -140,7 +144,7 @@ public:
         store(wi.y, rays.direction_y);
         store(wi.z, rays.direction_z);
         store(integers(vertices_.primitive), rays.source);
-        return mask_bits(to.is_lit) << first();
+        return mask_bits(to.is_lit & scattered) << first();
     }
 
 private:

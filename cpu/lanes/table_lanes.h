@@ -71,13 +71,15 @@ public:
         return {mask_bits(is_sample) << first(), mask_bits(is_sample & (target > most)) << first()};
     }
 
-    /// Opens a training sample for the directions of `lanes`, as FieldTrainer::open_sample().
+    /// Opens training samples for the directions of `lanes`, as FieldTrainer::open_sample().
     PL_INLINE void open(const DirectionGroup& directions, std::uint32_t lanes) const {
         const LaneInt cell = integers(directions.bin);
-        const LaneInt opens = lanes_of(lanes) & served_ & (cell >= 0);
-        store(select(opens, integers(points_.volume), Lanes::constant(kNoVolume)), open_.volume);
-        store(cell, open_.cell);
-        store(row(directions.bsdf_pdf_sa) / row(directions.pdf_sa), open_.bsdf_ratio);
+        const LaneInt scattered = lanes_of(lanes);
+        const LaneInt opened = select(served_ & (cell >= 0), integers(points_.volume), Lanes::constant(kNoVolume));
+        const LaneFloat ratio = row(directions.bsdf_pdf_sa) / row(directions.pdf_sa);
+        store(select(scattered, opened, integers(open_.volume)), open_.volume);
+        store(select(scattered, cell, integers(open_.cell)), open_.cell);
+        store(select(scattered, ratio, row(open_.bsdf_ratio)), open_.bsdf_ratio);
     }
 
 private:

@@ -44,10 +44,11 @@ public:
         store(rms(emitted) * (kInvPi * cos_i) * weight, samples.irradiance);
     }
 
-    /// Members as in ScatteredGroup.
+    /// A path after it is scattered into a direction.
     struct Scattered {
-        LaneInt is_lit;
-        Real3<Lanes> weight, origin;
+        LaneInt is_lit;       ///< 0: f cos is 0 in the direction, or its density is
+        Real3<Lanes> weight;  ///< f cos / pdf
+        Real3<Lanes> origin;  ///< of the ray in the direction
     };
     PL_INLINE Scattered scatter(const DirectionGroup& directions) const {
         const Real3<Lanes> wi = vector(directions.wi);
@@ -57,12 +58,6 @@ public:
         const SpawnPoint<Lanes> from{vector(vertices_.position), normal, row(vertices_.position_error)};
         return {(pdf_sa > 0.0f) & (cos_i != 0.0f),
                 scaled(lambert_eval(vector(vertices_.albedo), cos_i), 1.0f / pdf_sa), spawn_origin(from, wi)};
-    }
-    PL_INLINE void scatter(const DirectionGroup& directions, ScatteredGroup& to) const {
-        const Scattered scattered = scatter(directions);
-        store(scattered.is_lit, to.is_lit);
-        store(scattered.weight, to.weight);
-        store(scattered.origin, to.origin);
     }
 
 private:

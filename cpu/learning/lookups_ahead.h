@@ -33,8 +33,10 @@ public:
                std::uint32_t end);
     /// Completes the lookups. Best called after other work, which hides the latency of the prefetched cells.
     void finish(const SceneView& scene, const PlacementView& placement);
-    /// The surface points at the hits of all rays.
-    const SurfaceBlock& surfaces() const { return surfaces_; }
+    /// The surface points at the hits of all rays, with the volumes that are known.
+    PointGroup* points() { return surfaces_.points(); }
+    /// The rays whose volumes are known, one bit each.
+    std::uint64_t found() const { return wanted_; }
     /// Whether the volume at the hit of a ray is known; not for skipped rays.
     bool is_found(std::uint32_t ray) const { return ((wanted_ >> (ray - first_)) & 1u) != 0; }
     /// The volume of a ray that is_found().

@@ -1,5 +1,5 @@
-// Directions at the Lambert reflectors of a block (VertexBlock or LaneBlock), and the densities of directions towards lights, by the means
-// that a method has: SIMD lanes for tables and for the BSDF, else path by path. Those of its other vertices are arbitrary.
+// Directions at the Lambert reflectors of a block, and the densities of directions towards lights, by the means that a method has: SIMD
+// lanes for tables and for the BSDF, else path by path. Those of other vertices are arbitrary.
 #pragma once
 
 #include "core/kernel/integrator/probe.h"
@@ -20,10 +20,10 @@ public:
 
     /// Told that no vertex is in the block.
     void clear() {}
-    /// Told that vertex i of the block is `from`.
-    void add(const auto& /*block*/, std::uint32_t i, const ScatterPoint<F, M>& from,
+    /// Told of vertex i of the block, which is at a Lambert reflector.
+    void add(std::uint32_t i, const SurfacePoint& surface, const typename M::Vertex& /*vertex*/,
              const ScatterUniforms& uniforms) {
-        surfaces_[i] = from.surface;
+        surfaces_[i] = surface;
         uniforms_[i] = uniforms;
     }
     /// Told that all vertices are added.
@@ -60,7 +60,7 @@ public:
     explicit DirectionBlock(const M&) {}
 
     void clear() {}
-    void add(const auto&, std::uint32_t, const ScatterPoint<F, M>&, const ScatterUniforms&) {}
+    void add(std::uint32_t, const SurfacePoint&, const typename M::Vertex&, const ScatterUniforms&) {}
     void complete(const auto&) {}
     void weigh_lights(const auto& block, const LightSampleGroup* lights) {
         kernels_.weigh_lambert(block.groups(), lights, directions_, block.group_count());
@@ -101,12 +101,12 @@ public:
         for (GuidedGroup& group : groups_) std::fill_n(group.volume, kGroupSize, kNoVolume);
     }
     /// Prefetches the rows of the vertex's table.
-    void add(const auto& block, std::uint32_t i, const ScatterPoint<F, M>& from, const ScatterUniforms&) {
-        if (block.is_layered(i) || !from.vertex.is_served()) return;
+    void add(std::uint32_t i, const SurfacePoint& surface, const TableLocation& vertex, const ScatterUniforms&) {
+        if (!vertex.is_served()) return;
         const TableField& field = method_.field;
-        __builtin_prefetch(field.row_cdf.data + from.vertex.volume * field.cells.side);
-        groups_[i / kGroupSize].set_volume(i % kGroupSize, served_point(field, from.vertex, from.surface),
-                                           method_.bsdf_fraction(from.vertex));
+        __builtin_prefetch(field.row_cdf.data + vertex.volume * field.cells.side);
+        groups_[i / kGroupSize].set_volume(i % kGroupSize, served_point(field, vertex, surface),
+                                           method_.bsdf_fraction(vertex));
     }
     /// The volumes of the vertices, instead of calls of add().
     GuidedGroup* guided() { return groups_; }

@@ -1,5 +1,4 @@
-// Light samples at the vertices of a block (VertexBlock or LaneBlock): lights are chosen in SIMD lanes, and sampled there at Lambert
-// reflectors.
+// Light samples at the vertices of a block: lights are chosen in SIMD lanes, and sampled there at Lambert reflectors.
 #pragma once
 
 #include <vector>
@@ -23,9 +22,10 @@ requires(learns_lights<F, M>) struct LearnedLightsBlock<F, M> {
     explicit LearnedLightsBlock(const M& method) : method_(method) {}
     const float* learned_cdf() const { return method_.field.light_cdf.data; }
     void find(const auto& block) {
-        for (std::uint32_t i = 0; i < block.count(); ++i)
+        block.for_reached([&](std::uint32_t i) {
             groups[i / kGroupSize].set(i % kGroupSize, learned_lights<F>(method_, block.vertex(i)).learned(),
                                        learned_cdf());
+        });
     }
 
     LearnedLightsGroup groups[kBlockGroups];
@@ -91,14 +91,27 @@ public:
                 .target = from.target[lane]};
     }
     /// The light sample of a vertex that is layered.
-    UnweightedLight sample_layered(const auto& block, std::uint32_t i) const {
+    UnweightedLight sample_layered(const auto& block, std::uint32_t i, const ReceivedWeights& weights) const {
         const ScatterPoint<F, M>& from = block.layered(i);
         const bool is_in_lanes = is_triangle_in_lanes(block, i);
         const DirectLight sample =
             is_in_lanes ? reflected_alone(i, from) : sample_alone(block, i, from.surface, from.bsdf);
         if (!(sample.pdf_sa > 0.0f)) return {};
         const Ray ray = is_in_lanes ? shadow_ray(i, from.surface.primitive) : shadow_ray_to<F>(from.surface, sample);
-        return unweighted_light(context_, from, sample, ray, block.layered_weights(i));
+        return unweighted_light(context_, from, sample, ray, weights);
+    }
+    /// Keeps the light sample of a vertex that is layered. `weight`: the MIS weight over its density.
+    void set_layered(std::uint32_t i, const UnweightedLight& light, float weight) {
+        LightSampleGroup& to = group(i);
+        const std::uint32_t lane = i % kGroupSize;
+        to.pdf_sa[lane] = light.pdf_sa;
+        if (!(light.pdf_sa > 0.0f)) return;
+        set_ray(i, light.ray);
+        to.weight[lane] = weight;
+        to.reflected.set(lane, light.reflected);
+        to.contribution.set(lane, light.contribution * weight);
+        to.irradiance[lane] = light.irradiance * weight;
+        if constexpr (F.has(Feature::ManyLights)) to.cluster[lane] = light.cluster;
     }
 
 private:
@@ -175,14 +188,18 @@ private:
         const std::uint32_t lane = i % kGroupSize;
         to.pdf_sa[lane] = sample.pdf_sa;
         if (!(sample.pdf_sa > 0.0f)) return;
-        const Ray ray = shadow_ray_to<F>(surface, sample);
+        set_ray(i, shadow_ray_to<F>(surface, sample));
         to.wi.set(lane, sample.wi);
         to.emitted.set(lane, sample.emitted);
         to.cos_i[lane] = sample.cos_i;
+        if constexpr (F.has(Feature::ManyLights)) to.cluster[lane] = sample.cluster;
+    }
+    void set_ray(std::uint32_t i, const Ray& ray) {
+        LightSampleGroup& to = group(i);
+        const std::uint32_t lane = i % kGroupSize;
         to.target[lane] = ray.target;
         to.origin.set(lane, ray.origin);
         to.direction.set(lane, ray.direction);
-        if constexpr (F.has(Feature::ManyLights)) to.cluster[lane] = sample.cluster;
     }
     /// The sample of an emissive triangle in lanes, at a vertex that is layered.
     DirectLight reflected_alone(std::uint32_t i, const ScatterPoint<F, M>& from) const {
@@ -255,15 +272,12 @@ public:
     bool wanted() const {
         return lights_ != nullptr && context_.settings.next_event != 0 && !context_.scene.light_tree.empty();
     }
-    /// For the hits of the first `count` paths. `state_of`: the PathState of a path, by its number.
-    void find(const RayBatch& rays, std::uint32_t count, const auto& state_of) {
+    /// For the hits of the first `count` paths of the batch `paths`, PathRows.
+    void find(const auto& paths, std::uint32_t count) {
         count_ = 0;
-        for (std::uint32_t path = 0; path < count; ++path) {
-            const std::uint32_t primitive = rays.primitive(path);
-            if (!lights_->is_light(primitive)) continue;
-            const PathState<F, M>& state = state_of(path);
-            if (state.direction_pdf_sa > 0.0f) add(path, primitive, state);
-        }
+        for (std::uint32_t path = 0; path < count; ++path)
+            if (lights_->is_light(paths.rays.primitive(path)) && paths.direction_pdf_sa(path) > 0.0f)
+                add(paths, path);
         kernels_.find_light_densities(rows_of(context_.scene.light_tree, learned_.learned_cdf()), hits_.data(),
                                       group_count(count_));
         for (std::uint32_t i = 0; i < count_; ++i)
@@ -275,16 +289,16 @@ public:
     }
 
 private:
-    void add(std::uint32_t path, std::uint32_t primitive, const PathState<F, M>& state) {
+    void add(const auto& paths, std::uint32_t path) {
         if (count_ == paths_.size()) {
             paths_.resize(count_ + kGroupSize);
             hits_.emplace_back();
         }
         LightHitGroup& group = hits_[count_ / kGroupSize];
         const std::uint32_t lane = count_ % kGroupSize;
-        group.from.set(lane, state.ray.origin);
-        group.light[lane] = lights_->light_of(primitive);
-        group.learned.set(lane, state.lights.learned(), learned_.learned_cdf());
+        group.from.set(lane, paths.rays.ray(path).origin);
+        group.light[lane] = lights_->light_of(paths.rays.primitive(path));
+        group.learned.set(lane, paths.learned_lights(path), learned_.learned_cdf());
         paths_[count_++] = path;
     }
 

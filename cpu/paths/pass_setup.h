@@ -125,16 +125,15 @@ struct PictureWork {
                 .purpose = Purpose::Pixel,
                 .sample = sequence_of(sample),
                 .subset = subset,
-                .pinhole = kPlainFeatures.covers(F) ? &camera : nullptr,
+                .pinhole = is_pinhole() ? &camera : nullptr,
                 .grid = grid()};
     }
     PathState<F, M> begin(const PathStart& start) const {
         const std::uint32_t pixel = subset.pixel(start.number);
         prefetch(pixel);  // films exceed the cache
-        if constexpr (kPlainFeatures.covers(F))
+        if (is_pinhole())
             return begin_path<F, M>(Ray{.origin = camera.eye, .direction = start.direction}, grid(), pixel);
-        else
-            return begin_path<F, M>(camera, grid(), pixel, start.u);
+        return begin_path<F, M>(camera, grid(), pixel, start.u);
     }
     void prefetch(std::uint32_t pixel) const { __builtin_prefetch(&film.pixels[pixel], 1); }
     bool finish(const PathState<F, M>& state, PassCounters& counters) const {
@@ -142,6 +141,7 @@ struct PictureWork {
     }
 
 private:
+    bool is_pinhole() const { return !F.has(Feature::ThinLens) || !(camera.aperture_radius > 0.0f); }
     PixelGrid grid() const { return {film.width, film.height, sample}; }
 };
 

@@ -6,26 +6,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "cpu/paths/lane_vertices.h"
-#include "cpu/paths/state_vertices.h"
+#include "cpu/paths/vertices.h"
 #include "cpu/rays/solid_hits.h"
 
 namespace pl {
-
-/// The kinds of paths of a batch, with the steps from their hits to their next rays and their shadow rays: in SIMD lanes for the sets of
-/// effects of kPlainFeatures, else with a PathState of each path.
-template <FeatureSet F, Method M, bool IsInLanes = kPlainFeatures.covers(F)>
-struct PathKind {
-    using Paths = LanePaths<F, M>;
-    using Vertices = LaneVertices<F, M>;
-    using Shadows = LaneShadows<F, M>;
-};
-template <FeatureSet F, Method M>
-struct PathKind<F, M, false> {
-    using Paths = StatePaths<F, M>;
-    using Vertices = StateVertices<F, M>;
-    using Shadows = StateShadows<F, M>;
-};
 
 /// The batch of one thread, active paths first. Each stage is one function with all calls inlined, so that its
 /// machine code does not depend on the other sets of features in the same translation unit.
@@ -42,8 +26,8 @@ public:
     PassCounters run(PathSource& source) {
         fill(source);
         while (active_ > 0) {
-            hits_.find_closest(paths_.rays(), active_);
-            paths_.uniforms().draw(paths_.setup.path, active_);
+            hits_.find_closest(paths_.rows.rays, active_);
+            paths_.rows.uniforms.draw(paths_.setup.path, active_);
             shadows_.clear();
             extend();
             shadows_.connect(hits_, active_);
@@ -62,7 +46,7 @@ private:
         PathStart next;
         if (!source.next(next)) return false;
         // Paths move only when no further ones start: then the store in the place of a path that has moved is still its own.
-        paths_.start(i, stores_.empty() ? nullptr : &stores_[i], [&] { return work_.begin(next); });
+        paths_.rows.start(i, stores_.empty() ? nullptr : &stores_[i], [&] { return work_.begin(next); });
         return true;
     }
 
@@ -83,7 +67,7 @@ private:
     /// Begins the lookups of the block of paths [first, end).
     void begin_lookups([[maybe_unused]] std::uint32_t first, [[maybe_unused]] std::uint32_t end) {
         if constexpr (TableGuided<M>)
-            paths_.lookups_of(first).begin(paths_.setup.scene, paths_.method.field, paths_.rays(), first, end);
+            paths_.lookups_of(first).begin(paths_.setup.scene, paths_.method.field, paths_.rows.rays, first, end);
     }
     void finish_lookups([[maybe_unused]] std::uint32_t first) {
         if constexpr (TableGuided<M>) paths_.lookups_of(first).finish(paths_.setup.scene, paths_.method.field);
@@ -94,7 +78,7 @@ private:
         for (std::uint32_t block = 0; block * kPathBlock < active_; ++block) {
             // Pixels of the film: the prefetch of begin() has brought them to the L2 cache only.
             for_bits(ended_[block],
-                     [&](std::uint32_t k) { work_.prefetch(paths_.uniforms().pixel(block * kPathBlock + k)); });
+                     [&](std::uint32_t k) { work_.prefetch(paths_.rows.uniforms.pixel(block * kPathBlock + k)); });
             while (ended_[block] != 0) {
                 const std::uint32_t i =
                     block * kPathBlock + static_cast<std::uint32_t>(std::countr_zero(ended_[block]));
@@ -106,7 +90,7 @@ private:
     }
     void finish(std::uint32_t i) {
         PathState<F, M> local;
-        PathState<F, M>& state = paths_.read(i, local);
+        PathState<F, M>& state = paths_.rows.read(i, local);
         paths_.method.finished(state.memory, paths_.counters.path.method);
         count_path(paths_.counters, state.radiance, work_.finish(state, paths_.counters));
     }
@@ -118,18 +102,16 @@ private:
         const bool has_ended = (ended_[active_ / kPathBlock] & last) != 0;
         ended_[active_ / kPathBlock] &= ~last;
         ended_[i / kPathBlock] |= std::uint64_t{has_ended} << (i % kPathBlock);
-        paths_.move(active_, i);
+        paths_.rows.move(active_, i);
     }
-
-    using Kind = PathKind<F, M>;
 
     const W& work_;
     SolidHits<F, I> hits_;
-    typename Kind::Paths paths_;
+    Paths<F, M> paths_;
     std::vector<typename M::Store> stores_;  ///< empty if paths need none
     std::vector<std::uint64_t> ended_;       ///< [block], one bit per path
-    typename Kind::Vertices vertices_{paths_};
-    [[no_unique_address]] typename Kind::Shadows shadows_{paths_};
+    Vertices<F, M> vertices_{paths_};
+    [[no_unique_address]] Shadows<F, M> shadows_{paths_};
     std::uint32_t active_ = 0;
 };
 

@@ -2,29 +2,22 @@
 // remains path by path is to queue the samples.
 #pragma once
 
+#include "cpu/paths/batch_paths.h"
 #include "cpu/paths/direction_block.h"
-#include "cpu/paths/lane_paths.h"
 #include "cpu/paths/vertex_block.h"
 
 namespace pl {
 
-/// Paths of a block by what the ends of their segments are.
-struct SegmentEnds {
-    std::uint64_t hit = 0;         ///< a surface
-    std::uint64_t scattering = 0;  ///< which reflects
-    std::uint64_t reached = 0;     ///< from which the path may go on
-};
-
 /// Hooks of a method that has none in lanes.
 template <FeatureSet F, Method M>
 struct TableLearning {
-    explicit TableLearning(LanePaths<F, M>&) {}
+    explicit TableLearning(Paths<F, M>&) {}
 };
 
 template <FeatureSet F, LaneLearning M>
 class TableLearning<F, M> {
 public:
-    explicit TableLearning(LanePaths<F, M>& paths) : paths_(paths) {}
+    explicit TableLearning(Paths<F, M>& paths) : paths_(paths) {}
 
     /// Told of the block of path `first`, and of the volumes that its directions are sampled by.
     void begin(std::uint32_t first, const BlockRows& block, GuidedGroup* guided) {
@@ -36,16 +29,33 @@ public:
                  .open = paths_.rows.open_groups() + first / kGroupSize};
         emitted_ = {};
     }
+    /// Looks up the volumes at surfaces that reflect and are not specular: `located`. `reached`: vertices from which paths may go on.
+    void look_up(std::uint64_t located, [[maybe_unused]] std::uint64_t reached, VertexBlock<F, M>& vertices) {
+        locate(located, vertices);
+        if constexpr (!std::is_empty_v<typename M::Light> || learns_lights<F, M> || kTellsChains<F, M>)
+            for_bits(reached, [&](std::uint32_t k) { vertices.set_vertex(k, vertex(k)); });
+    }
     /// Told of the emission at the end of the segment of path k.
     void add_emission(std::uint32_t k, const Observation& observation) {
         emitted_.of[k] = rms(observation.emitted) * (is_indirect() ? observation.direction_share : 1.0f);
     }
-    /// Looks up the volumes at the ends of the segments, and completes the training samples there.
-    void observe(const SegmentEnds& ends, LaneBlock<M>& vertices) {
-        look_up(ends.scattering, vertices);
-        if constexpr (!std::is_empty_v<typename M::Sample>) complete(ends.hit);
-        if constexpr (!std::is_empty_v<typename M::Light>)
-            for_bits(ends.reached, [&](std::uint32_t k) { vertices.set_vertex(k, vertex(k)); });
+    /// Completes the training samples of the paths in `observed`, at the ends of their segments.
+    void complete([[maybe_unused]] std::uint64_t observed) {
+        if constexpr (!std::is_empty_v<typename M::Sample>) {
+            BlockFloats targets;
+            BlockBits samples, clamped;
+            const float most = kMaxRecordedUnits * paths_.method.field.radiance_unit;
+            paths_.kernels.complete_samples(rows_, is_indirect(), most, emitted_, targets, samples, clamped);
+            const std::uint64_t completed = samples.bits() & observed;
+            MethodCounters& counters = paths_.counters.path.method;
+            counters.records += static_cast<std::uint64_t>(std::popcount(completed));
+            counters.clamped_records += static_cast<std::uint64_t>(std::popcount(clamped.bits() & observed));
+            for_bits(completed, [&](std::uint32_t k) {
+                OpenSample<TableField> sample = paths_.rows.open_sample(first_ + k);
+                sample.distance = rows_.block.hits[k / kGroupSize].t[k % kGroupSize];
+                paths_.guided.record({sample, targets.of[k]});
+            });
+        }
     }
     /// Contribution estimates, one per path, at the vertices in `reached`.
     const float* estimate(std::uint64_t reached) {
@@ -78,12 +88,13 @@ private:
             return paths_.method.learning.light == LearnedLight::Indirect;
         return false;
     }
-    void look_up(std::uint64_t scattering, const LaneBlock<M>& vertices) {
+    void locate(std::uint64_t located, const VertexBlock<F, M>& vertices) {
         const TableField& field = paths_.method.field;
         const MixtureSettings& mixture = paths_.method.mixture;
         BlockBits unknown;
         if (!field.normals.empty()) {
-            rows_.served.set(scattering);
+            if constexpr (F.has(Feature::Blends) || F.has(Feature::Instances)) locate_singly(located, vertices);
+            rows_.served.set(located);
             rows_.served = paths_.kernels.look_up_volumes(
                 {.nodes = field.tree.nodes.data,
                  .mean_radiance = field.mean_radiance.data,
@@ -100,27 +111,22 @@ private:
                                                     served_point(field, vertex(k), vertices.surface(k)),
                                                     paths_.method.bsdf_fraction(vertex(k)));
         });
-        const std::uint64_t missed = scattering & ~rows_.served.bits();
-        paths_.counters.path.method.lookups += static_cast<std::uint64_t>(std::popcount(scattering));
+        const std::uint64_t missed = located & ~rows_.served.bits();
+        paths_.counters.path.method.lookups += static_cast<std::uint64_t>(std::popcount(located));
         paths_.counters.path.method.lookup_misses += static_cast<std::uint64_t>(std::popcount(missed));
     }
-    void complete(std::uint64_t hit) {
-        BlockFloats targets;
-        BlockBits samples, clamped;
-        const float most = kMaxRecordedUnits * paths_.method.field.radiance_unit;
-        paths_.kernels.complete_samples(rows_, is_indirect(), most, emitted_, targets, samples, clamped);
-        const std::uint64_t completed = samples.bits() & hit;
-        MethodCounters& counters = paths_.counters.path.method;
-        counters.records += static_cast<std::uint64_t>(std::popcount(completed));
-        counters.clamped_records += static_cast<std::uint64_t>(std::popcount(clamped.bits() & hit));
-        for_bits(completed, [&](std::uint32_t k) {
-            OpenSample<TableField> sample = paths_.rows.open_sample(first_ + k);
-            sample.distance = rows_.block.hits[k / kGroupSize].t[k % kGroupSize];
-            paths_.guided.record({sample, targets.of[k]});
+    /// Volumes that are not looked up ahead: of instances, and of materials that show others.
+    void locate_singly(std::uint64_t located, const VertexBlock<F, M>& vertices) {
+        if (paths_.can_look_ahead()) located &= ~paths_.lookups_of(first_).found();
+        for_bits(located, [&](std::uint32_t k) {
+            PointGroup& points = rows_.block.points[k / kGroupSize];
+            const TableLocation at = paths_.method.field.locate(vertices.surface(k, rows_.block.points));
+            points.volume[k % kGroupSize] = at.volume;
+            points.node[k % kGroupSize] = at.node;
         });
     }
 
-    LanePaths<F, M>& paths_;
+    Paths<F, M>& paths_;
     std::uint32_t first_ = 0;
     LearningRows rows_{};
     ValueGroup values_[kBlockGroups];

@@ -1,5 +1,5 @@
-// The vertices of a block of paths, as structures of arrays: written once, and read in SIMD lanes while lights and directions are sampled.
-// Paths in lanes have theirs in a LaneBlock, paths with a PathState each in a VertexBlock.
+// The vertices of a block of paths, as structures of arrays in the lanes of their paths: written once, and read in SIMD lanes while lights
+// and directions are sampled.
 #pragma once
 
 #include "core/kernel/integrator/steps.h"
@@ -15,6 +15,7 @@ public:
     const VertexGroup* groups() const { return groups_; }
     Vec3f albedo(std::uint32_t i) const { return group(i).albedo.get(i % kGroupSize); }
     std::uint32_t primitive(std::uint32_t i) const { return group(i).primitive[i % kGroupSize]; }
+    Vec3f throughput(std::uint32_t i) const { return group(i).throughput.get(i % kGroupSize); }
     Vec4f light_uniforms(std::uint32_t i) const { return group(i).light.get(i % kGroupSize); }
     /// Without the material and the side.
     SurfacePoint surface(std::uint32_t i) const {
@@ -27,16 +28,42 @@ public:
                 .primitive = from.primitive[lane]};
     }
 
+    /// With them, which are in `points`.
+    SurfacePoint surface(std::uint32_t i, const PointGroup* points) const {
+        SurfacePoint whole = surface(i);
+        whole.material = points[i / kGroupSize].material[i % kGroupSize];
+        whole.front = points[i / kGroupSize].front[i % kGroupSize] != 0;
+        return whole;
+    }
+    void set_normal(std::uint32_t i, Vec3f normal) {
+        groups_[i / kGroupSize].shading_normal.set(i % kGroupSize, normal);
+    }
+    void set_albedo(std::uint32_t i, Vec3f albedo) { groups_[i / kGroupSize].albedo.set(i % kGroupSize, albedo); }
+
 private:
     const VertexGroup& group(std::uint32_t i) const { return groups_[i / kGroupSize]; }
 
     VertexGroup groups_[kBlockGroups];
 };
 
-/// The vertices of a block in the lanes of their paths, all at Lambert reflectors. Vertex i is that of path i of the block, if it has
-/// reached one from which it may go on.
-template <Method M>
-class LaneBlock : public VertexRows {
+/// The vertices of a block at surfaces other than Lambert reflectors, whose directions are sampled path by path.
+template <FeatureSet F, Method M>
+struct LayeredVertices {
+    std::uint64_t bits = 0;  ///< one per path of the block
+    ScatterPoint<F, M> points[kPathBlock];
+};
+struct NoLayeredVertices {
+    static constexpr std::uint64_t bits = 0;
+};
+
+/// The glass around the paths of a block at their vertices.
+struct BlockMedia {
+    std::uint32_t of[kPathBlock];
+};
+
+/// Vertex i is that of path i of the block, if it has reached one from which it may go on.
+template <FeatureSet F, Method M>
+class VertexBlock : public VertexRows {
 public:
     using Vertex = typename M::Vertex;
 
@@ -45,124 +72,43 @@ public:
         count_ = count;
         reached_ = 0;
         continuing_ = 0;
+        if constexpr (F.has_any(kLobeFeatures)) layered_.bits = 0;
     }
     /// One bit per path that is at a vertex, and per path that goes on from there.
     void set_reached(std::uint64_t bits) { reached_ = bits; }
     void set_continuing(std::uint64_t bits) { continuing_ = bits; }
     void set_vertex(std::uint32_t i, const Vertex& vertex) { vertices_[i] = vertex; }
+    void set_medium(std::uint32_t i, std::uint32_t medium) requires(kTracksMedium<F>) { media_.of[i] = medium; }
+    /// Path i is at a surface other than a Lambert reflector. Rows know its normals, and its albedo for all directions together.
+    void set_layered(std::uint32_t i, const SurfacePoint& surface,
+                     const Bsdf<F>& bsdf) requires(F.has_any(kLobeFeatures)) {
+        layered_.bits |= std::uint64_t{1} << i;
+        layered_.points[i].surface = surface;
+        layered_.points[i].bsdf = bsdf;
+    }
 
     std::uint32_t group_count() const { return pl::group_count(count_); }
     const Vertex& vertex(std::uint32_t i) const { return vertices_[i]; }
-    static constexpr bool is_layered(std::uint32_t) { return false; }
-    void for_lambert(const auto& visit) const { for_bits(reached_, visit); }
-    void for_continuing_lambert(const auto& visit) const { for_bits(continuing_, visit); }
+    std::uint32_t medium(std::uint32_t i) const requires(kTracksMedium<F>) { return media_.of[i]; }
+    /// The vertices that are not at Lambert reflectors, and whether vertex i is one of them.
+    std::uint64_t layered() const { return layered_.bits; }
+    bool is_layered(std::uint32_t i) const { return ((layered_.bits >> i) & 1u) != 0; }
+    /// A vertex that is_layered().
+    ScatterPoint<F, M>& layered(std::uint32_t i) requires(F.has_any(kLobeFeatures)) { return layered_.points[i]; }
+    const ScatterPoint<F, M>& layered(std::uint32_t i) const requires(F.has_any(kLobeFeatures)) {
+        return layered_.points[i];
+    }
+    void for_reached(const auto& visit) const { for_bits(reached_, visit); }
+    void for_lambert(const auto& visit) const { for_bits(reached_ & ~layered_.bits, visit); }
+    void for_continuing_lambert(const auto& visit) const { for_bits(continuing_ & ~layered_.bits, visit); }
 
 private:
+    static_assert(kPathBlock <= 64);
     std::uint32_t count_ = 0;
     std::uint64_t reached_ = 0;
     std::uint64_t continuing_ = 0;
     Vertex vertices_[kPathBlock];
-};
-
-/// The vertices of a block at surfaces other than Lambert reflectors, whose directions are sampled path by path.
-template <FeatureSet F, Method M>
-struct LayeredVertices {
-    std::uint64_t bits = 0;  ///< one per vertex of the block
-    ScatterPoint<F, M> points[kPathBlock];
-    ReceivedWeights weights[kPathBlock];  ///< before the roulette at the vertex
-};
-struct NoLayeredVertices {
-    static constexpr std::uint64_t bits = 0;
-};
-
-/// At most kPathBlock vertices, numbered in the order of their paths: each is added when its path is shaded.
-template <FeatureSet F, Method M>
-class VertexBlock : public VertexRows {
-public:
-    using Vertex = typename M::Vertex;
-
-    std::uint32_t count() const { return count_; }
-    std::uint32_t group_count() const { return pl::group_count(count_); }
-    void clear() {
-        count_ = 0;
-        continuing_ = 0;
-        if constexpr (F.has_any(kLobeFeatures)) layered_.bits = 0;
-    }
-
-    /// The place of a vertex that add() may append next: a layered one stays there.
-    ScatterPoint<F, M>& next_layered() requires(F.has_any(kLobeFeatures)) { return layered_.points[count_]; }
-    /// Appends the vertex that a path has reached. `weights`: before the roulette there. A vertex at a surface other than a Lambert
-    /// reflector must be in next_layered(); lanes know no more of it than its light sample needs.
-    void add(std::uint32_t path, const ScatterPoint<F, M>& from, const ReceivedWeights& weights,
-             const VertexUniforms& uniforms) {
-        VertexGroup& group = groups()[count_ / kGroupSize];
-        const std::uint32_t lane = count_ % kGroupSize;
-        group.position.set(lane, from.surface.position);
-        group.geometric_normal.set(lane, from.surface.geometric_normal);
-        group.position_error[lane] = from.surface.position_error;
-        group.primitive[lane] = from.surface.primitive;
-        if constexpr (F.has(Feature::NextEventEstimation))
-            for (int i = 0; i < 4; ++i) group.light.rows[i][lane] = uniforms.light[i];
-        if (from.bsdf.is_lambert())
-            add_lambert(group, lane, from, weights, uniforms);
-        else if constexpr (F.has_any(kLobeFeatures))
-            add_layered(from, weights);
-        paths_[count_] = path;
-        vertices_[count_++] = from.vertex;
-    }
-    /// The path of the last vertex continues from it.
-    void keep_last(float roulette_weight) {
-        const std::uint32_t last = count_ - 1;
-        roulette_weights_[last] = roulette_weight;
-        continuing_ |= std::uint64_t{1} << last;
-    }
-
-    std::uint32_t path(std::uint32_t i) const { return paths_[i]; }
-    const Vertex& vertex(std::uint32_t i) const { return vertices_[i]; }
-    float roulette_weight(std::uint32_t i) const { return roulette_weights_[i]; }
-    std::uint32_t medium(std::uint32_t i) const requires(kTracksMedium<F>) { return media_.of[i]; }
-    /// Whether vertex i is not at a Lambert reflector.
-    bool is_layered(std::uint32_t i) const { return ((layered_.bits >> i) & 1u) != 0; }
-    /// A vertex that is_layered().
-    const ScatterPoint<F, M>& layered(std::uint32_t i) const requires(F.has_any(kLobeFeatures)) {
-        return layered_.points[i];
-    }
-    const ReceivedWeights& layered_weights(std::uint32_t i) const requires(F.has_any(kLobeFeatures)) {
-        return layered_.weights[i];
-    }
-    /// Calls visit(i) for every vertex at a Lambert reflector.
-    void for_lambert(const auto& visit) const { for_bits(first_bits(count_) & ~layered_.bits, visit); }
-    /// Calls visit(i) for every vertex whose path continues.
-    void for_continuing(const auto& visit) const { for_bits(continuing_, visit); }
-    /// Calls visit(i) for every vertex at a Lambert reflector whose path continues.
-    void for_continuing_lambert(const auto& visit) const { for_bits(continuing_ & ~layered_.bits, visit); }
-
-private:
-    struct Media {
-        std::uint32_t of[kPathBlock];
-    };
-
-    void add_lambert(VertexGroup& group, std::uint32_t lane, const ScatterPoint<F, M>& from,
-                     const ReceivedWeights& weights, const VertexUniforms& uniforms) {
-        group.shading_normal.set(lane, from.surface.shading_normal);
-        group.albedo.set(lane, from.bsdf.albedo());
-        group.scatter.set(lane, Vec3f{uniforms.scatter});
-        if constexpr (F.has(Feature::NextEventEstimation)) group.throughput.set(lane, weights.throughput);
-        if constexpr (kTracksMedium<F>) media_.of[count_] = weights.medium;
-    }
-    void add_layered([[maybe_unused]] const ScatterPoint<F, M>& from, const ReceivedWeights& weights) {
-        PL_ASSERT(&from == &layered_.points[count_]);
-        layered_.bits |= std::uint64_t{1} << count_;
-        layered_.weights[count_] = weights;
-    }
-
-    static_assert(kPathBlock <= 64);
-    std::uint32_t count_ = 0;
-    std::uint64_t continuing_ = 0;  ///< one bit per vertex
-    std::uint32_t paths_[kPathBlock];
-    float roulette_weights_[kPathBlock];
-    Vertex vertices_[kPathBlock];
-    [[no_unique_address]] std::conditional_t<kTracksMedium<F>, Media, NoPathMedium> media_;
+    [[no_unique_address]] std::conditional_t<kTracksMedium<F>, BlockMedia, NoPathMedium> media_;
     [[no_unique_address]] std::conditional_t<F.has_any(kLobeFeatures), LayeredVertices<F, M>, NoLayeredVertices>
         layered_;
 };

@@ -117,6 +117,23 @@ PL_HD inline float add_emission(const PathContext<M>& context, const Ahead& ahea
     return weight;
 }
 
+/// The path's specular chain goes through the surface hit.
+template <FeatureSet F, class M>
+PL_HD inline void extend_chain(const Observation& observation, PathState<F, M>& state) {
+    state.chain.emitted += state.chain.weight * observation.emitted;
+    state.chain.distance += observation.distance;
+    state.chain.is_open = true;
+}
+
+/// Calls the method's observe() for the surface hit, which is not specular. `vertex`: the method's data there.
+template <FeatureSet F, Method M>
+PL_HD inline void observe_end(const M& method, const typename M::Vertex& vertex, const Observation& observation,
+                              PathState<F, M>& state, const StepOutput<M>& out) {
+    out.sample = method.observe(state.memory, through_chain(state, observation), vertex, out.counters.method);
+    if constexpr (F.has_any(kLobeFeatures))
+        state.chain.is_open = false;  // its weight is needed until the path is scattered
+}
+
 /// Calls the method's observe() for the surface hit. Returns the method's data of the vertex.
 template <FeatureSet F, Method M>
 PL_HD inline typename M::Vertex observe_vertex(const M& method, const SurfacePoint& surface, const Bsdf<F>& bsdf,
@@ -125,16 +142,12 @@ PL_HD inline typename M::Vertex observe_vertex(const M& method, const SurfacePoi
     typename M::Vertex vertex{};
     if constexpr (F.has_any(kLobeFeatures)) {
         if (bsdf.is_specular()) {
-            state.chain.emitted += state.chain.weight * observation.emitted;
-            state.chain.distance += observation.distance;
-            state.chain.is_open = true;
+            extend_chain(observation, state);
             return vertex;
         }
     }
     if (bsdf.scatters()) vertex = method.locate(surface, out.counters.method);
-    out.sample = method.observe(state.memory, through_chain(state, observation), vertex, out.counters.method);
-    if constexpr (F.has_any(kLobeFeatures))
-        state.chain.is_open = false;  // its weight is needed until the path is scattered
+    observe_end<F>(method, vertex, observation, state, out);
     return vertex;
 }
 

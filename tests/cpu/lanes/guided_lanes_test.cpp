@@ -1,7 +1,7 @@
 // Guided directions sampled in SIMD lanes are bit-identical to those of the scalar code.
 
 #include "cpu/paths/direction_block.h"
-#include "cpu/paths/vertex_block.h"
+#include "tests/cpu/put_vertex.h"
 #include "tests/support/catch.hpp"
 #include "tests/support/field/field_fixture.h"
 #include "tests/support/field/guided_methods.h"
@@ -95,16 +95,15 @@ TEST_CASE("Without volumes a block of paths scatters by the BSDF") {
     VertexBlock<FeatureSet{}, PrecomputedMethod> block;
     DirectionBlock<FeatureSet{}, PrecomputedMethod> directions(method);
     const ScatterPoint<FeatureSet{}, PrecomputedMethod> point{.surface = SurfacePoint{}, .bsdf = {Vec3f{0.5f}}};
-    block.clear();
-    block.add(7, point, {}, {.scatter = {0.25f, 0.75f, 0.125f, 0.0f}});
-    block.keep_last(1.0f);
+    block.clear(8);
+    put_vertex(block, 7, point, {.scatter = {0.25f, 0.75f, 0.125f, 0.0f}});
+    block.set_reached(1u << 7);
+    block.set_continuing(1u << 7);
     directions.clear();
-    directions.add(block, 0, point, {});
+    directions.add(7, point.surface, point.vertex, {});
     directions.complete(block);
     directions.sample(block);
-    REQUIRE(block.count() == 1);
-    CHECK(block.path(0) == 7);
-    const DirectionSample direction = directions.groups()[0].get(0);
+    const DirectionSample direction = directions.groups()[0].get(7);
     CHECK(direction.wi == lambert_sample(SurfacePoint{}, {0.75f, 0.125f}));
     CHECK(direction.pdf_sa == direction.bsdf_pdf_sa);
     CHECK(direction.bin == -1);

@@ -4,7 +4,7 @@
 
 #include "core/kernel/methods/default.h"
 #include "cpu/paths/light_block.h"
-#include "cpu/paths/vertex_block.h"
+#include "tests/cpu/put_vertex.h"
 #include "tests/cpu/room_of_lights.h"
 #include "tests/support/catch.hpp"
 
@@ -68,25 +68,25 @@ TreeComparison compare_tree(const SceneView& scene, const ChoosesLights& method,
     Uniforms random(6);
     TreeComparison result;
     for (std::uint32_t size = 1; size <= kPathBlock; ++size) {
-        block->clear();
+        block->clear(size);
+        block->set_reached(first_bits(size));
         std::vector<UnweightedLight> expected;
         for (std::uint32_t i = 0; i < size; ++i) {
-            auto& point = block->next_layered();
+            ScatterPoint<kMany, ChoosesLights> point;
             point.surface = random_point(scene, random).surface;
-            point.vertex = {};
             if (random.below(3) == 0) point.surface.material = 2;
             point.bsdf = make_bsdf<kMany>(scene, point.surface, Vec3f{1.0f / 3.0f}, point.surface.geometric_normal);
             if (random.below(3) != 0) point.vertex.volume = static_cast<std::int32_t>(random.below(volumes));
             const Vec4f u = random_numbers(random);
             expected.push_back(sample_light(context, point, u, {}));
-            block->add(i, point, {}, {.light = u});
+            put_vertex(*block, i, point, {.light = u});
         }
         lights->sample(*block);
         lights->weigh(*block, directions);
         for (std::uint32_t i = 0; i < size; ++i) {
             const bool is_lit = expected[i].pdf_sa > 0.0f;
             if (block->is_layered(i)) {
-                const UnweightedLight light = lights->sample_layered(*block, i);
+                const UnweightedLight light = lights->sample_layered(*block, i, {});
                 REQUIRE(light.pdf_sa == expected[i].pdf_sa);
                 REQUIRE((!is_lit || same_ray(light.ray, expected[i].ray)));
                 REQUIRE(light.cluster == expected[i].cluster);

@@ -1,5 +1,5 @@
 // The steps of paths that stay in SIMD lanes are those of the scalar code, bit for bit, by every instruction set.
-#include "cpu/paths/lane_vertices.h"
+#include "cpu/paths/vertices.h"
 
 #include <cstring>
 
@@ -124,6 +124,7 @@ void fill_for_roulette(PathRows& block, float* estimates, Uniforms& random) {
         paths.throughput.set(lane, random.cube(0.0f, 2.0f));
         paths.survival[lane] = random.next();
         paths.vertices[lane] = random.below(7);
+        paths.specular[lane] = random.below(4) == 0 ? random.below(paths.vertices[lane] + 1) : 0;
         block.vertices[i / kGroupSize].albedo.set(lane, random.cube(0.0f, 1.0f));
         block.scatter[i / kGroupSize].rows[3][lane] = random.next();
         estimates[i] = random.below(20) == 0 ? kInfinity : random.between(0.0f, 2.0f);
@@ -146,7 +147,7 @@ Played play(const LaneKernels& kernels, const PathSettings& settings, bool with_
     const auto block = std::make_unique<PathRows>();
     Uniforms random(3);
     Played played;
-    for (int round = 0; round < 40; ++round) {
+    for (int round = 0; round < 60; ++round) {
         float estimates[kPathBlock];
         fill_for_roulette(*block, estimates, random);
         PathGroup before[kBlockGroups];
@@ -156,10 +157,11 @@ Played play(const LaneKernels& kernels, const PathSettings& settings, bool with_
         for (std::uint32_t i = 0; i < kPathBlock; ++i) {
             const std::uint32_t lane = i % kGroupSize;
             const PathGroup& from = before[i / kGroupSize];
-            PathState<FeatureSet{}, Estimates> state;
+            PathState<kLobeFeatures, Estimates> state;
             state.throughput = from.throughput.get(lane);
             state.survival = from.survival[lane];
             state.vertices = from.vertices[lane];
+            state.specular.vertices = from.specular[lane];
             const Vec3f albedo = block->vertices[i / kGroupSize].albedo.get(lane);
             const float estimate = with_estimates ? estimates[i] : state.survival * max_component(albedo);
             const float u = block->scatter[i / kGroupSize].rows[3][lane];
@@ -200,12 +202,20 @@ int different_scattered(const LaneKernels& kernels) {
             const float pdf_sa = random.below(10) == 0 ? 0.0f : random.next();
             directions[i / kGroupSize].set(i % kGroupSize, {.wi = random.direction(), .pdf_sa = pdf_sa});
         }
+        constexpr std::uint64_t kScattered = 0xfff7'0f3e'ffff'ffefu;
         BlockBits lit;
+        lit.set(kScattered);
         kernels.scatter_paths(block->rows(), directions, block->rays, lit);
         for (std::uint32_t i = 0; i < kPathBlock; ++i) {
             const std::uint32_t lane = i % kGroupSize;
             State state;
             state.throughput = {0.5f, 0.25f, 2.0f};
+            if (!has(kScattered, i)) {
+                const bool is_left = !has(lit.bits(), i) &&
+                                     same_bits(block->paths[i / kGroupSize].throughput.get(lane), state.throughput);
+                different += is_left ? 0 : 1;
+                continue;
+            }
             PathCounters counters;
             DefaultMethod::Sample none;
             const DirectionSample direction = directions[i / kGroupSize].get(lane);

@@ -1,11 +1,11 @@
 // Lights that are sampled in SIMD lanes are those of the scalar code, bit for bit, by every instruction set.
 #include "cpu/paths/light_block.h"
-#include "cpu/paths/vertex_block.h"
 
 #include <memory>
 
 #include "core/kernel/integrator/sampled_lights.h"
 #include "core/kernel/methods/default.h"
+#include "tests/cpu/put_vertex.h"
 #include "tests/cpu/room_of_lights.h"
 #include "tests/support/catch.hpp"
 
@@ -75,7 +75,8 @@ Comparison compare(const Context& context, const LaneKernels& kernels) {
     DirectionGroup directions[kBlockGroups];
     Uniforms random(5);
     for (std::uint32_t size = 0; size <= kPathBlock; ++size) {
-        block->clear();
+        block->clear(size);
+        block->set_reached(first_bits(size));
         std::vector<LitPoint> points;
         std::vector<ShadowRequest<KeepsEstimates>> expected;
         for (std::uint32_t i = 0; i < size; ++i) {
@@ -83,7 +84,7 @@ Comparison compare(const Context& context, const LaneKernels& kernels) {
             points.push_back({at.surface, at.bsdf});
             const Vec4f u = random_numbers(random);
             const Vec3f throughput = random.cube(0.0f, 1.0f);
-            block->add(i, points.back(), {.throughput = throughput}, {.light = u});
+            put_vertex(*block, i, points.back(), {.light = u}, throughput);
             expected.push_back(request_alone(context, points.back(), u, throughput));
         }
         lights->sample(*block);
@@ -226,20 +227,21 @@ TEST_CASE("Lights at surfaces with lobes are the samples that were made in lanes
         int far = 0;
         int triangles = 0;
         for (int round = 0; round < 20; ++round) {
-            block->clear();
+            block->clear(kPathBlock);
+            block->set_reached(first_bits(kPathBlock));
             std::vector<UnweightedLight> expected;
             for (std::uint32_t i = 0; i < kPathBlock; ++i) {
                 const SurfacePoint surface = random_point(view, random).surface;
                 const Vec4f u = random_numbers(random);
-                ScatterPoint<kLobes, DefaultMethod>& point = block->next_layered();
-                point = {surface, make_bsdf<kLobes>(view, surface, Vec3f{1.0f / 3.0f}, surface.geometric_normal)};
+                const ScatterPoint<kLobes, DefaultMethod> point{
+                    surface, make_bsdf<kLobes>(view, surface, Vec3f{1.0f / 3.0f}, surface.geometric_normal)};
                 expected.push_back(sample_light(context, point, u, {}));
-                block->add(i, point, {}, {.light = u});
+                put_vertex(*block, i, point, {.light = u});
             }
             lights->sample(*block);
             for (std::uint32_t i = 0; i < kPathBlock; ++i) {
                 if (!block->is_layered(i)) continue;
-                const UnweightedLight light = lights->sample_layered(*block, i);
+                const UnweightedLight light = lights->sample_layered(*block, i, {});
                 REQUIRE(light.pdf_sa == expected[i].pdf_sa);
                 if (!(light.pdf_sa > 0.0f)) continue;
                 REQUIRE(same_ray(light.ray, expected[i].ray));
@@ -269,7 +271,8 @@ TEST_CASE("Lights inside of glass that absorbs are sampled as by one path alone"
     int lit = 0;
     int absorbed = 0;
     for (int round = 0; round < 20; ++round) {
-        block->clear();
+        block->clear(kPathBlock);
+        block->set_reached(first_bits(kPathBlock));
         std::vector<UnweightedLight> expected;
         for (std::uint32_t i = 0; i < kPathBlock; ++i) {
             const SurfacePoint surface = random_point(view, random).surface;
@@ -277,7 +280,8 @@ TEST_CASE("Lights inside of glass that absorbs are sampled as by one path alone"
                 surface, make_bsdf<kGlass>(view, surface, Vec3f{1.0f / 3.0f}, surface.geometric_normal)};
             const Vec4f u = random_numbers(random);
             const std::uint32_t medium = random.below(2) == 0 ? kInk : kNoMedium;
-            block->add(i, point, {.medium = medium}, {.light = u});
+            put_vertex(*block, i, point, {.light = u});
+            block->set_medium(i, medium);
             expected.push_back(sample_light(context, point, u, {.medium = medium}));
             const UnweightedLight outside = sample_light(context, point, u, {});
             absorbed += expected.back().irradiance < outside.irradiance ? 1 : 0;
@@ -309,9 +313,10 @@ TEST_CASE("A scene without lights has no light samples") {
     const LightTable table(view);
     const auto lights = std::make_unique<LightBlock<kLights, KeepsEstimates>>(context, &table);
     Uniforms random(7);
-    block->clear();
+    block->clear(1);
+    block->set_reached(1);
     const RoomPoint at = random_point(view, random);
-    block->add(0, {at.surface, at.bsdf}, {}, {.light = random_numbers(random)});
+    put_vertex(*block, 0, Point{at.surface, at.bsdf}, {.light = random_numbers(random)});
     lights->sample(*block);
     CHECK_FALSE(lights->is_wanted(0));
 }

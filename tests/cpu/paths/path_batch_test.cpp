@@ -68,6 +68,64 @@ SceneDescription open_room() {
     return scene;
 }
 
+/// An image with light and dark texels, and one of normals that lean.
+std::vector<TextureDescription> images() {
+    TextureDescription colors{.width = 2, .height = 2};
+    colors.texels = {{0.9f, 0.5f, 0.2f, 1.0f}, {0, 0, 0, 1}, {0.3f, 0.8f, 0.6f, 1.0f}, {1, 1, 1, 1}};
+    TextureDescription normals{.content = TextureContent::Normal, .width = 2, .height = 1};
+    normals.texels = {{0.6f, 0.4f, 0.9f, 1.0f}, {0.3f, 0.5f, 0.8f, 1.0f}};
+    return {colors, normals};
+}
+
+/// An open room under an image sky with many lamps, one of which shows an image, and images on walls and floor.
+SceneDescription room_of_images() {
+    SceneDescription scene = open_room();
+    scene.textures = images();
+    scene.uvs = {{0, 0}, {1, 0}, {0, 1}};
+    for (TriangleDescription& triangle : scene.triangles) triangle.uv = {0, 1, 2};
+    scene.materials[0].textures.albedo = 0;
+    scene.materials[2].textures.emission = 0;
+    scene.environment_map = {.width = 2, .height = 1, .texels = {glm::vec3{0.1f}, glm::vec3{1.0f, 0.5f, 0.2f}}};
+    Uniforms random(3);
+    for (int i = 0; i < 40; ++i) {
+        const Vec3f corner = random.cube(-0.9f, 0.9f);
+        add_triangle(scene, corner, corner + 0.05f * random.direction(), corner + 0.05f * random.direction(), 2);
+        scene.triangles.back().uv = {0, 1, 2};
+    }
+    return scene;
+}
+
+/// The same with surfaces of every kind: by turns on the block, and on the triangles of walls and floor.
+SceneDescription room_of_surfaces() {
+    SceneDescription scene = room_of_images();
+    const auto first = static_cast<std::uint32_t>(scene.materials.size());
+    const glm::vec3 gray(0.6f);
+    const MaterialDescription kinds[] = {
+        {.name = "mirror", .albedo = {}, .kind = SurfaceKind::Conductor, .specular = glm::vec3(0.9f)},
+        {.name = "metal", .albedo = {}, .kind = SurfaceKind::Conductor, .roughness = 0.4f, .anisotropy = 0.5f},
+        {.name = "ink", .kind = SurfaceKind::Dielectric, .absorption = {0.5f, 0.2f, 0.0f}},
+        {.name = "coat", .albedo = gray, .kind = SurfaceKind::Plastic},
+        {.name = "dull coat", .albedo = gray, .kind = SurfaceKind::Plastic, .roughness = 0.5f},
+        {.name = "pane", .kind = SurfaceKind::Pane},
+        {.name = "velvet", .albedo = gray, .kind = SurfaceKind::Velvet, .roughness = 0.5f},
+        {.name = "relief", .albedo = gray, .textures = {.normal = 1}},
+        {.name = "polished relief",
+         .albedo = gray,
+         .kind = SurfaceKind::Plastic,
+         .textures = {.albedo = 0, .normal = 1}},
+        {.name = "rust", .albedo = {}, .kind = SurfaceKind::Conductor, .blend = {.other = 0}},
+        {.name = "stains", .albedo = gray, .blend = {.other = first}},
+    };
+    scene.materials.insert(scene.materials.end(), std::begin(kinds), std::end(kinds));
+    std::uint32_t kind = 0;
+    for (TriangleDescription& triangle : scene.triangles)
+        if (triangle.material == 1 || (triangle.material == 0 && kind % 3 == 0))
+            triangle.material = first + kind++ % static_cast<std::uint32_t>(std::size(kinds));
+        else if (triangle.material == 0)
+            ++kind;
+    return scene;
+}
+
 /// Traces path by path.
 template <FeatureSet F, Method M>
 Outcome loop_over_paths(const Room& room, const Effects& effects) {
@@ -152,6 +210,21 @@ void check_method(MethodId method) {
         check_effects<kPlainFeatures, M>(open, method, {kPlainFeatures, next_event});
 }
 
+/// Rooms with what lanes leave to the steps of one path.
+template <class M>
+void check_surfaces(MethodId method) {
+    constexpr FeatureSet kImages = kCompiledSets[3];
+    const Room images(room_of_images());
+    const Room surfaces(room_of_surfaces());
+    REQUIRE_FALSE(images.scene->view().light_tree.empty());
+    REQUIRE(kImages.covers(needed_effects(*images.scene)));
+    REQUIRE_FALSE(surfaces.scene->view().absorption.empty());
+    for (const bool next_event : {false, true}) {
+        check_effects<kImages, M>(images, method, {kImages, next_event});
+        check_effects<kEveryFeature, M>(surfaces, method, {kEveryFeature, next_event});
+    }
+}
+
 }  // namespace
 
 TEST_CASE("Batches of default paths equal single paths") { check_method<DefaultMethod>(MethodId::Default); }
@@ -160,6 +233,16 @@ TEST_CASE("Batches of precomputed paths equal single paths") {
 }
 TEST_CASE("Batches of reinforcement paths equal single paths") {
     check_method<ReinforcementMethod>(MethodId::Reinforcement);
+}
+
+TEST_CASE("Batches of default paths at images and lobes equal single paths") {
+    check_surfaces<DefaultMethod>(MethodId::Default);
+}
+TEST_CASE("Batches of precomputed paths at images and lobes equal single paths") {
+    check_surfaces<PrecomputedMethod>(MethodId::Precomputed);
+}
+TEST_CASE("Batches of reinforcement paths at images and lobes equal single paths") {
+    check_surfaces<ReinforcementMethod>(MethodId::Reinforcement);
 }
 
 TEST_CASE("Batches of probes equal single probes") {
