@@ -4,7 +4,7 @@
 #include "app/console.h"
 #include "app/interrupt.h"
 #include "app/options.h"
-#include "core/measure/tile_gain.h"
+#include "core/measure/gain.h"
 #include "core/session/session.h"
 
 namespace pl {

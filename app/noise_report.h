@@ -5,7 +5,7 @@
 
 #include "core/diagnose/pixel_noise.h"
 #include "core/io/json_file.h"
-#include "core/measure/tile_gain.h"
+#include "core/measure/gain.h"
 
 namespace pl {
 

@@ -1,6 +1,6 @@
 #include "app/picture_metadata.h"
 
-#include "core/base/number_text.h"
+#include "core/base/printable.h"
 #include "core/measure/picture_identity.h"
 #include "core/session/shown_range.h"
 

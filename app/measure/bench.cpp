@@ -12,8 +12,8 @@
 #include "app/measure/bench_options.h"
 #include "app/measure/bench_ranks.h"
 #include "app/progress.h"
+#include "core/bench/bench_results.h"
 #include "core/bench/effect_costs.h"
-#include "core/bench/gate.h"
 
 namespace pl {
 namespace {

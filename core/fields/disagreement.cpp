@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/base/work_queue.h"
+#include "core/base/parallel.h"
 
 namespace pl {
 namespace {

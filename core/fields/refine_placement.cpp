@@ -5,7 +5,7 @@
 #include <optional>
 #include <utility>
 
-#include "core/base/parallel_chunks.h"
+#include "core/base/parallel.h"
 #include "core/fields/disagreement.h"
 
 namespace pl {

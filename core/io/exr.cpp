@@ -27,7 +27,6 @@
 #include "core/base/error.h"
 #include "core/io/exr_layers.h"
 #include "core/io/files.h"
-#include "core/io/image_checks.h"
 #include "core/io/primaries.h"
 
 namespace pl {

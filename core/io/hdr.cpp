@@ -9,7 +9,6 @@
 
 #include <fmt/format.h>
 
-#include "core/io/image_checks.h"
 #include "core/io/line_reader.h"
 #include "core/io/primaries.h"
 

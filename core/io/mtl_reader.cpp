@@ -10,8 +10,8 @@
 #include <fmt/ranges.h>
 
 #include "core/io/line_reader.h"
-#include "core/io/mtl_map.h"
-#include "core/io/mtl_surface.h"
+#include "core/io/mtl.h"
+#include "core/io/mtl_entry.h"
 #include "core/io/obj_names.h"
 #include "core/io/tally.h"
 #include "core/scene/description.h"

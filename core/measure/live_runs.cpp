@@ -4,10 +4,10 @@
 #include <cmath>
 
 #include "core/base/error.h"
+#include "core/base/parallel.h"
 #include "core/base/timer.h"
-#include "core/base/work_queue.h"
+#include "core/measure/live_run.h"
 #include "core/measure/picture_identity.h"
-#include "core/measure/picture_memory.h"
 
 namespace pl {
 namespace {

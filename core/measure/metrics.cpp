@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/base/error.h"
-#include "core/base/parallel_chunks.h"
+#include "core/base/parallel.h"
 
 namespace pl {
 namespace {

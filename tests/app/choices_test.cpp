@@ -7,7 +7,7 @@
 #include "app/help.h"
 #include "app/option_table.h"
 #include "app/options/groups.h"
-#include "core/io/map_kd.h"
+#include "core/io/load_settings.h"
 #include "core/scene/surface_info.h"
 #include "tests/support/described_choice.h"
 #include "tests/support/program/run_program.h"

@@ -6,7 +6,7 @@
 
 #include "core/base/error.h"
 #include "core/io/camera_file.h"
-#include "core/io/frame_file.h"
+#include "core/io/picture_file.h"
 #include "ui/model/numbered_names.h"
 
 namespace pl::ui {

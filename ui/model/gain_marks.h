@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-#include "core/measure/tile_gain.h"
+#include "core/measure/gain.h"
 #include "ui/model/background_job.h"
 #include "ui/model/render_link.h"
 

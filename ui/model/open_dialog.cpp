@@ -7,7 +7,7 @@
 
 #include "core/base/error.h"
 #include "core/io/files.h"
-#include "core/io/mesh_file.h"
+#include "core/io/load_scene.h"
 
 namespace pl::ui {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/selftest/self_check.h"
+#include "core/selftest/self_test.h"
 #include "ui/model/background_job.h"
 
 namespace pl::ui {

@@ -1,6 +1,6 @@
 #include "ui/model/stored_reference.h"
 
-#include "core/bench/make_reference.h"
+#include "core/bench/reference_store.h"
 #include "core/measure/picture_identity.h"
 
 namespace pl::ui {

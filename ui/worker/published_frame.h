@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "core/diagnose/find_diagnostics.h"
+#include "core/diagnose/diagnostics.h"
 #include "core/diagnose/pixel_paths.h"
 #include "core/scene/default_light.h"
 #include "core/scene/pack_scene.h"

@@ -15,7 +15,7 @@
 #include "core/base/error.h"
 #include "core/base/memory.h"
 #include "core/io/files.h"
-#include "core/io/image_checks.h"
+#include "core/io/image.h"
 
 namespace pl {
 namespace {

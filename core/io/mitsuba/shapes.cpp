@@ -8,17 +8,15 @@
 #include <fmt/format.h>
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "core/base/parallel_chunks.h"
-#include "core/io/append_triangles.h"
+#include "core/base/parallel.h"
+#include "core/io/kept_meshes.h"
 #include "core/io/line_reader.h"
-#include "core/io/mitsuba/faces.h"
 #include "core/io/mitsuba/ply.h"
 #include "core/io/mitsuba/round_shapes.h"
 #include "core/io/mitsuba/serialized.h"
 #include "core/io/obj.h"
-#include "core/io/obj_smooth.h"
 #include "core/io/obj_triangles.h"
-#include "core/io/triangle_area.h"
+#include "core/io/triangulate.h"
 #include "core/scene/far_origin.h"
 
 namespace pl {

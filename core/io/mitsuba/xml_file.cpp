@@ -10,7 +10,6 @@
 #include "core/base/error.h"
 #include "core/io/files.h"
 #include "core/io/line_reader.h"
-#include "core/io/mitsuba/xml_text.h"
 #include "core/io/nearest_name.h"
 #include "core/io/texture_file.h"
 
