@@ -6,9 +6,9 @@
 
 #include <fmt/format.h>
 
-#include "app/build_info.h"
 #include "app/events.h"
 #include "app/options.h"
+#include "app/version.h"
 
 namespace pl {
 namespace {

@@ -1,15 +1,13 @@
 // `pathlight render`: a picture without a display.
 #include <fmt/format.h>
 
-#include "app/checkpoint_files.h"
 #include "app/commands.h"
-#include "app/field_files.h"
 #include "app/interrupt.h"
 #include "app/make_backend.h"
 #include "app/open_scene.h"
-#include "app/picture_metadata.h"
 #include "app/picture_target.h"
 #include "app/run_passes.h"
+#include "app/state_files.h"
 #include "app/stats_json.h"
 #include "core/base/error.h"
 #include "core/io/files.h"

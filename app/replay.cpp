@@ -2,12 +2,12 @@
 #include <fmt/format.h>
 
 #include "app/commands.h"
-#include "app/field_files.h"
 #include "app/interrupt.h"
 #include "app/make_backend.h"
 #include "app/open_scene.h"
-#include "app/picture_metadata.h"
+#include "app/picture_target.h"
 #include "app/run_passes.h"
+#include "app/state_files.h"
 #include "app/stats_json.h"
 #include "core/base/error.h"
 #include "core/io/camera_file.h"

@@ -1,9 +1,9 @@
 // The loop of every subcommand without a window: passes until a limit is reached or the run is interrupted.
 #pragma once
 
-#include "app/checkpoint_files.h"
 #include "app/console.h"
 #include "app/interrupt.h"
+#include "app/state_files.h"
 #include "core/measure/error_target.h"
 #include "core/session/session.h"
 

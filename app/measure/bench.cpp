@@ -5,13 +5,13 @@
 
 #include <fmt/format.h>
 
-#include "app/build_info.h"
 #include "app/commands.h"
 #include "app/interrupt.h"
 #include "app/make_backend.h"
 #include "app/measure/bench_options.h"
 #include "app/measure/bench_ranks.h"
 #include "app/progress.h"
+#include "app/version.h"
 #include "core/bench/bench_results.h"
 #include "core/bench/effect_costs.h"
 

@@ -1,9 +1,10 @@
 // Choices describe themselves: completely, and in the help and the manual as in the program.
+#include "app/option_parsers.h"
+
 #include <algorithm>
 #include <regex>
 #include <sstream>
 
-#include "app/choices.h"
 #include "app/help.h"
 #include "app/option_table.h"
 #include "app/options/groups.h"

@@ -1,7 +1,6 @@
 // The drawn hemisphere of a volume: each cell at its directions.
-#include "app/draw_hemisphere.h"
-
 #include "app/disc_picture.h"
+
 #include "tests/support/catch.hpp"
 
 namespace pl {
