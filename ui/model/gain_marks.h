@@ -6,7 +6,7 @@
 #include <string>
 
 #include "core/measure/gain.h"
-#include "ui/model/background_job.h"
+#include "ui/model/jobs.h"
 #include "ui/model/render_link.h"
 
 namespace pl::ui {

@@ -6,7 +6,7 @@
 
 #include "core/fields/field_choices.h"
 #include "core/fields/field_kernels.h"
-#include "ui/draw/words.h"
+#include "ui/draw/value_text.h"
 
 namespace pl::ui {
 

@@ -7,8 +7,7 @@
 #include <SDL.h>
 
 #include "core/base/error.h"
-#include "ui/draw/gui_memory.h"
-#include "ui/draw/imgui_compat.h"
+#include "ui/draw/imgui_draw.h"
 #include "ui/model/viewer_model.h"
 #include "ui/script/script_values.h"
 

@@ -2,7 +2,6 @@
 
 #include "core/base/error.h"
 #include "core/diagnose/diagnostics.h"
-#include "ui/draw/cell_tint.h"
 #include "ui/draw/picture.h"
 
 namespace pl::ui {

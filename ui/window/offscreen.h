@@ -6,7 +6,6 @@
 #include <memory>
 
 #include "core/io/image.h"
-#include "ui/draw/gui_memory.h"
 #include "ui/draw/imgui_draw.h"
 #include "ui/viewer.h"
 

@@ -17,7 +17,7 @@
 
 namespace pl::ui {
 
-/// The radiance volume that serves each pixel, as display colors of color_of_id(); see ui/worker/cell_colors.h.
+/// The radiance volume that serves each pixel, as display colors of color_of_id(); see ui/worker/cell_image.h.
 struct CellImage {
     int width = 0;
     int height = 0;

@@ -9,7 +9,6 @@
 #include "ui/worker/inbox.h"
 #include "ui/worker/inspection.h"
 #include "ui/worker/method_turns.h"
-#include "ui/worker/motion_preview.h"
 #include "ui/worker/outbox.h"
 #include "ui/worker/picture_size.h"
 #include "ui/worker/recorder.h"
