@@ -34,8 +34,8 @@ std::string share_line(std::string_view name, const Interval& share) {
 
 std::string shares_text(const diagnose::NoiseShares& shares) {
     std::string text = "  noise by technique\n";
-    for (const diagnose::FoundByInfo& info : diagnose::all_found_by())
-        text += share_line(info.label, shares.found_by[static_cast<std::size_t>(info.id)]);
+    for (const ChoiceInfo<diagnose::FoundBy>& info : kChoices<diagnose::FoundBy>)
+        text += share_line(info.label, shares.found_by[static_cast<std::size_t>(info.value)]);
     text += "  noise by bounces\n";
     for (std::size_t i = 0; i < diagnose::kBounceClasses; ++i) text += share_line(bounce_name(i), shares.bounces[i]);
     text += "  noise by light\n";
@@ -60,9 +60,9 @@ Json estimate_json(std::string_view method, const diagnose::PixelEstimate& estim
               {"by_bounces", Json()},
               {"by_light", Json()}};
     if (!estimate.shares) return json;
-    for (const diagnose::FoundByInfo& info : diagnose::all_found_by())
+    for (const ChoiceInfo<diagnose::FoundBy>& info : kChoices<diagnose::FoundBy>)
         json["by_technique"][std::string(info.name)] =
-            bench::interval_json(estimate.shares->found_by[static_cast<std::size_t>(info.id)]);
+            bench::interval_json(estimate.shares->found_by[static_cast<std::size_t>(info.value)]);
     json["by_bounces"] = Json::array();
     for (const Interval& share : estimate.shares->bounces) json["by_bounces"].push_back(bench::interval_json(share));
     for (std::size_t i = 0; i < estimate.shares->lights.size(); ++i)

@@ -85,7 +85,7 @@ private:
     void build_panels();
     void zoom_to_pixels();
     void point_at_pixel();
-    std::optional<HoveredPixel> hovered_pixel() const;
+    std::optional<PixelPosition> hovered_pixel() const;
     void show();
     void answer_requests();
     WindowMemory memory_now() const;
@@ -277,12 +277,12 @@ void Viewer::point_at_pixel() {
         magnifier_ = magnifier_at(plan_, *model_.frame(), image_, input_.pointer(), layout_.view, em(1.0f));
 }
 
-std::optional<HoveredPixel> Viewer::hovered_pixel() const {
+std::optional<PixelPosition> Viewer::hovered_pixel() const {
     const auto& pointed = model_.window().pointed;
     if (!pointed || !plan_.at_image) return std::nullopt;
     const Snapshot& snapshot = model_.frame()->snapshot;
     const PixelPosition pixel = pixel_under(image_, input_.pointer(), snapshot.width, snapshot.height);
-    return HoveredPixel{pixel.x, pixel.y};
+    return PixelPosition{pixel.x, pixel.y};
 }
 
 void Viewer::answer_requests() {

@@ -68,11 +68,6 @@ struct CellSummary {
     std::size_t below_reference = 0;  ///< runs whose last error is not positive
 };
 
-struct TargetRow {
-    double error = 0.0;
-    TimeToTarget time;
-};
-
 /// A method against the baseline: the first method of the same scene and back end.
 struct Comparison {
     BenchCell cell;

@@ -25,17 +25,6 @@ FoundBy arrival_at(const PathRecord& path, std::uint32_t index) {
 
 }  // namespace
 
-const std::array<FoundByInfo, kFoundByCount>& all_found_by() {
-    static constexpr std::array<FoundByInfo, kFoundByCount> kAll{{
-        {FoundBy::Camera, "seen", "seen directly"},
-        {FoundBy::LightSampling, "light", "light samples"},
-        {FoundBy::Bsdf, "bsdf", "BSDF sampling"},
-        {FoundBy::Field, "field", "guided sampling"},
-        {FoundBy::Delta, "delta", "delta lobes"},
-    }};
-    return kAll;
-}
-
 std::vector<Contribution> contributions_of(const PathRecord& path) {
     std::vector<Contribution> all;
     const auto add = [&](Contribution contribution, Vec3f radiance) {

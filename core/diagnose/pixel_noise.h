@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/base/choice.h"
 #include "core/diagnose/pixel_paths.h"
 #include "core/diagnose/record_path.h"
 #include "core/measure/gain.h"
@@ -26,12 +27,22 @@ enum class FoundBy : std::uint32_t {
 };
 inline constexpr std::size_t kFoundByCount = 5;
 
-struct FoundByInfo {
-    FoundBy id;
-    std::string_view name;   ///< in files
-    std::string_view label;  ///< on screen
-};
-const std::array<FoundByInfo, kFoundByCount>& all_found_by();
+}  // namespace pl::diagnose
+
+namespace pl {
+
+template <>
+inline constexpr auto kChoices<diagnose::FoundBy> = std::to_array<ChoiceInfo<diagnose::FoundBy>>({
+    {diagnose::FoundBy::Camera, "seen", "seen directly"},
+    {diagnose::FoundBy::LightSampling, "light", "light samples"},
+    {diagnose::FoundBy::Bsdf, "bsdf", "BSDF sampling"},
+    {diagnose::FoundBy::Field, "field", "guided sampling"},
+    {diagnose::FoundBy::Delta, "delta", "delta lobes"},
+});
+
+}  // namespace pl
+
+namespace pl::diagnose {
 
 struct Contribution {
     FoundBy found_by = FoundBy::Camera;

@@ -82,10 +82,8 @@ private:
 };
 
 /// The grids of the two horizontal axes: that of front_of(scene.up) first.
-struct DepthGrids {
-    DepthGrid first;
-    DepthGrid second;
-};
+/// Along the two horizontal axes.
+using DepthGrids = std::array<DepthGrid, 2>;
 
 DepthGrids depth_grids(const SceneDescription& scene, const Bounds& bounds, const DepthGrids& empty) {
     const glm::dvec3 low(bounds.low);
@@ -93,11 +91,9 @@ DepthGrids depth_grids(const SceneDescription& scene, const Bounds& bounds, cons
     DepthGrids grids = empty;
     for (const DepthGrids& part : sums_of_triangles(scene, empty, [&](DepthGrids&sums, auto corners) {
              for (glm::dvec3& corner : corners) corner = (corner - low) / extent;
-             sums.first.add(corners);
-             sums.second.add(corners);
+             for (DepthGrid& grid : sums) grid.add(corners);
          })) {
-        grids.first.add(part.first);
-        grids.second.add(part.second);
+        for (std::size_t i = 0; i < grids.size(); ++i) grids[i].add(part[i]);
     }
     return grids;
 }
@@ -118,7 +114,7 @@ std::optional<glm::vec3> open_side(const SceneDescription& scene) {
     for (const glm::vec3& toward : {front, right}) {
         const int axis = axis_of(toward);
         if (extent[axis] < kLeastDepth * std::max({extent.x, extent.y, extent.z})) continue;
-        const DepthGrid& grid = toward == front ? grids.first : grids.second;
+        const DepthGrid& grid = grids[toward == front ? 0 : 1];
         for (const glm::vec3& out : {toward, -toward}) {
             const double depth = grid.mean_depth(static_cast<double>(out[axis]));
             if (depth <= deepest) continue;

@@ -190,12 +190,6 @@ void LiveRuns::forget(std::uint64_t number) {
     update_current();
 }
 
-void LiveRuns::forget_all() {
-    runs_.clear();
-    for (auto& [number, track] : tracks_) track.next_seconds = 0.0;
-    update_current();
-}
-
 bool LiveRuns::has_reference(std::uint64_t picture) const {
     return reference_ != nullptr && reference_->picture == picture;
 }

@@ -130,14 +130,6 @@ double line_slope(std::span<const double> x, std::span<const double> y) {
     return squares > 0.0 ? products / squares : kNone;
 }
 
-double median_of(std::span<const double> values) {
-    if (values.empty()) return kNone;
-    std::vector<double> sorted(values.begin(), values.end());
-    std::sort(sorted.begin(), sorted.end());
-    const std::size_t middle = sorted.size() / 2;
-    return sorted.size() % 2 == 1 ? sorted[middle] : 0.5 * (sorted[middle - 1] + sorted[middle]);
-}
-
 double without_bias(const GroupFigure& figure, GroupSet groups) {
     return 2.0 * figure(groups) - 0.5 * (figure(groups & kEvenGroups) + figure(groups & kOddGroups));
 }

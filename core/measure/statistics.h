@@ -39,9 +39,6 @@ Interval ratio_interval(std::span<const double> numerator, std::span<const doubl
 /// Slope of a least-squares line through points. NaN below two different x.
 double line_slope(std::span<const double> x, std::span<const double> y);
 
-/// Median of at least one value; NaN for none.
-double median_of(std::span<const double> values);
-
 // Intervals of figures that are not means, from samples dealt to 32 groups that are independent of each other and alike.
 
 /// Samples are dealt to this many groups, in turn or at random.

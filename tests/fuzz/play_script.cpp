@@ -87,7 +87,7 @@ public:
         ImGui::NewFrame();
         memory_.places.clear();
         memory_.pointer_rest_seconds = 1.0f;  // tooltips, too
-        draw_interface(model, layout, image, plan, HoveredPixel{}, nullptr);
+        draw_interface(model, layout, image, plan, PixelPosition{}, nullptr);
         ImGui::Render();
     }
 

@@ -101,7 +101,7 @@ void CameraBookmarks::save() {
     std::vector<std::pair<std::filesystem::path, std::shared_ptr<const ByteImage>>> pictures;
     for (const Bookmark& bookmark : list_)
         if (bookmark.picture) pictures.emplace_back(picture_file(bookmark.camera), bookmark.picture);
-    jobs_.push([file = file(), cameras = cameras(), pictures = std::move(pictures)]() -> JobThread::Report {
+    jobs_.push([file = file(), cameras = cameras(), pictures = std::move(pictures)]() -> Jobs::Report {
         make_folder(file.parent_path());
         save_cameras(file, cameras);
         for (const auto& [path, picture] : pictures)
@@ -154,7 +154,7 @@ void CameraBookmarks::remove(std::size_t index) {
         std::ranges::any_of(list_, [&](const Bookmark& other) { return picture_file(other.camera) == picture; });
     save();
     if (folder_.empty() || is_shared) return;
-    jobs_.push([picture]() -> JobThread::Report {
+    jobs_.push([picture]() -> Jobs::Report {
         std::filesystem::remove(picture);
         return [] {};
     });

@@ -55,7 +55,7 @@ void save_window_picture(const std::filesystem::path& path, const Snapshot& snap
     save_picture(path, snapshot, picture.display, metadata_of(snapshot, picture, command));
 }
 
-void save_window_pixels(const std::filesystem::path& path, const ScreenPixels& pixels) {
+void save_window_pixels(const std::filesystem::path& path, const ByteImage& pixels) {
     write_png8(path, {.width = pixels.width, .height = pixels.height, .rgb = pixels.rgb});
 }
 

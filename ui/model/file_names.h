@@ -55,7 +55,7 @@ void save_window_picture(const std::filesystem::path& path, const Snapshot& snap
                          const std::string& command);
 
 /// Writes the pixels of the whole window, panels included, as .png.
-void save_window_pixels(const std::filesystem::path& path, const ScreenPixels& pixels);
+void save_window_pixels(const std::filesystem::path& path, const ByteImage& pixels);
 
 /// Reads a learned field for the open scene. Throws Error(Input) for a damaged file or one of another scene.
 std::shared_ptr<LearnedField> load_window_field(const std::filesystem::path& path, const SceneDescription& scene);

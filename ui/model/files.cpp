@@ -85,7 +85,7 @@ void PictureFiles::write_unsaved() {
     shown.backend = frame->backend.name;
     shown.spp = frame->snapshot.passes;
     for (const std::filesystem::path& path : std::exchange(unsaved_, {})) {
-        jobs_.push([this, path, shown, frame]() -> JobThread::Report {
+        jobs_.push([this, path, shown, frame]() -> Jobs::Report {
             save_window_picture(path, frame->snapshot, shown,
                                 options_.command_line ? options_.command_line(shown) : "");
             return [this, path] { messages_.say(MessageLevel::Info, "saved " + path.string()); };
@@ -93,8 +93,8 @@ void PictureFiles::write_unsaved() {
     }
 }
 
-void PictureFiles::save_window(ScreenPixels pixels, std::filesystem::path path) {
-    jobs_.push([this, path, shared = std::make_shared<ScreenPixels>(std::move(pixels))]() -> JobThread::Report {
+void PictureFiles::save_window(ByteImage pixels, std::filesystem::path path) {
+    jobs_.push([this, path, shared = std::make_shared<ByteImage>(std::move(pixels))]() -> Jobs::Report {
         save_window_pixels(path, *shared);
         return [this, path] { messages_.say(MessageLevel::Info, "saved " + path.string()); };
     });
@@ -119,15 +119,15 @@ std::filesystem::path SavedFields::save_as_named() {
 }
 
 void SavedFields::update() {
-    const std::optional<LearnedAnswer> answer = link_.worker().take_learned();
+    const std::optional<LearnedAnswer> answer = link_.worker().take<LearnedAnswer>();
     if (!answer) return;
     std::filesystem::path path = std::exchange(promised_, {});
-    if (!answer->field) {
+    if (!answer->value) {
         messages_.say(MessageLevel::Warning, answer->reason);
         return;
     }
-    if (path.empty()) path = next_name(answer->field->method);
-    jobs_.push([this, path, field = answer->field]() -> JobThread::Report {
+    if (path.empty()) path = next_name(answer->value->method);
+    jobs_.push([this, path, field = answer->value]() -> Jobs::Report {
         write_field(path, *field);
         return [this, text = fmt::format("saved {}: {}", path.string(), summary_of(*field))] {
             messages_.say(MessageLevel::Info, text);
@@ -162,7 +162,7 @@ void SavedFields::load_newest() {
 }
 
 void SavedFields::load(const std::filesystem::path& path) {
-    jobs_.push([this, path, scene = scene_.rendered()]() -> JobThread::Report {
+    jobs_.push([this, path, scene = scene_.rendered()]() -> Jobs::Report {
         const std::shared_ptr<LearnedField> field = load_window_field(path, *scene.description);
         return [this, field, path, scene] {
             if (scene.description != link_.status().scene)
@@ -180,7 +180,7 @@ void SavedFields::adopt(const std::shared_ptr<LearnedField>& field, const std::f
 
 std::filesystem::path Files::save_materials() {
     const std::filesystem::path path = names_.next(scene_, "materials", {".json"}).string() + ".json";
-    jobs_.push([this, path, materials = scene_.materials().named()]() -> JobThread::Report {
+    jobs_.push([this, path, materials = scene_.materials().named()]() -> Jobs::Report {
         write_material_file(path, materials);
         return [this, path] { messages_.say(MessageLevel::Info, "saved " + path.string()); };
     });

@@ -34,7 +34,7 @@ public:
     /// The picture that is shown now, to a file whose suffix decides its kind.
     void save_as(const std::filesystem::path& path);
     /// Pixels of the window, which only the window can read.
-    void save_window(ScreenPixels pixels, std::filesystem::path path);
+    void save_window(ByteImage pixels, std::filesystem::path path);
     std::filesystem::path next_window_shot() { return names_.next(scene_, "window", {".png"}).string() + ".png"; }
 
     /// The picture in the window with its settings.

@@ -21,24 +21,20 @@ namespace pl::ui {
 // The helper thread: saving and loading, one job after the other. A job returns its report, a function that the
 // window's thread calls.
 
-class JobThread {
+class Jobs {
 public:
     using Report = std::function<void()>;
-    using Job = std::function<Report()>;  ///< must not throw
+    using Job = std::function<Report()>;
 
-    JobThread() : thread_([this] { run(); }) {}
-    ~JobThread() { finish(); }
-    JobThread(const JobThread&) = delete;
-    JobThread& operator=(const JobThread&) = delete;
+    explicit Jobs(Messages& messages) : messages_(messages), thread_([this] { run(); }) {}
+    ~Jobs() { finish(); }
+    Jobs(const Jobs&) = delete;
+    Jobs& operator=(const Jobs&) = delete;
 
-    void push(Job job) {
-        {
-            const std::lock_guard lock(mutex_);
-            jobs_.push_back(std::move(job));
-            ++pending_;
-        }
-        wake_.notify_all();
-    }
+    /// `job` runs on the helper thread, the report it returns on the window's thread. An exception of a job becomes an error message.
+    void push(Job job);
+    /// Runs the reports of finished jobs; once per frame of the window.
+    void update();
 
     /// Finishes the queued jobs: a picture that was to be saved is written. No job may follow.
     void finish() {
@@ -50,12 +46,6 @@ public:
         if (thread_.joinable()) thread_.join();
     }
 
-    /// Reports of finished jobs, oldest first.
-    std::vector<Report> take_reports() {
-        const std::lock_guard lock(mutex_);
-        return std::exchange(reports_, {});
-    }
-
     /// Jobs that are not finished.
     int pending() const {
         const std::lock_guard lock(mutex_);
@@ -63,6 +53,7 @@ public:
     }
 
 private:
+    Report report_of(const Job& job);
     void run() {
         std::unique_lock lock(mutex_);
         while (true) {
@@ -71,13 +62,14 @@ private:
             const Job job = std::move(jobs_.front());
             jobs_.pop_front();
             lock.unlock();
-            Report report = job();
+            Report report = report_of(job);
             lock.lock();
             reports_.push_back(std::move(report));
             --pending_;
         }
     }
 
+    Messages& messages_;
     mutable std::mutex mutex_;
     std::condition_variable wake_;
     std::deque<Job> jobs_;
@@ -85,24 +77,6 @@ private:
     int pending_ = 0;
     bool quit_ = false;
     std::thread thread_;  ///< last: it uses all members above
-};
-
-class Jobs {
-public:
-    explicit Jobs(Messages& messages) : messages_(messages) {}
-
-    /// `job` runs on the helper thread, the report it returns on the window's thread.
-    void push(JobThread::Job job);
-    /// Runs the reports of finished jobs; once per frame of the window.
-    void update();
-    /// Jobs whose report has not run yet.
-    int pending() const { return thread_.pending(); }
-    /// Waits for all queued jobs; none may follow.
-    void finish() { thread_.finish(); }
-
-private:
-    Messages& messages_;
-    JobThread thread_;
 };
 
 // Background work with a progress bar: a thread of low priority, its progress, and a stop flag.

@@ -155,7 +155,7 @@ void OpenDialog::toggle() {
 
 void OpenDialog::browse(const std::filesystem::path& folder) {
     const std::uint64_t look = ++newest_look_;
-    jobs_.push([this, folder, look]() -> JobThread::Report {
+    jobs_.push([this, folder, look]() -> Jobs::Report {
         const FolderListing listing = list_folder(folder);
         return [this, listing, look] {
             if (look == newest_look_) listing_ = listing;

@@ -127,14 +127,14 @@ void PathExplorer::pick(Vec2f image_point) {
 }
 
 void PathExplorer::take_answer() {
-    std::optional<PathsAnswer> answer = link_.worker().take_paths();
+    std::optional<PathsAnswer> answer = link_.worker().take<PathsAnswer>();
     if (!answer || !click_.is_asked) return;
     drop();
-    if (answer->passes == nullptr) {
+    if (answer->value == nullptr) {
         messages_.say(MessageLevel::Info, answer->reason);
         return;
     }
-    passes_ = std::move(answer->passes);
+    passes_ = std::move(answer->value);
     generation_ = answer->generation;
 }
 

@@ -86,7 +86,7 @@ void References::look_up() {
     if (picture == 0 || picture == looked_up_) return;
     looked_up_ = picture;
     if (current() != nullptr) return;
-    jobs_.push([this, scene = scene_.rendered(), settings = render_.settings()]() -> JobThread::Report {
+    jobs_.push([this, scene = scene_.rendered(), settings = render_.settings()]() -> Jobs::Report {
         const auto found = find_stored_reference(options_.reference_dir, *scene.description, settings);
         if (!found) return {};
         return [this, found] { adopt(found); };

@@ -52,7 +52,7 @@ void RenderLink::end_turns(MethodId method) {
     turns_.reset();
     second_frame_.reset();
     worker_.set_turns(std::nullopt);
-    worker_.submit(EditMethod{method});
+    worker_.submit(method);
 }
 
 }  // namespace pl::ui

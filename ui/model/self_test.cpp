@@ -22,13 +22,13 @@ void SelfTestRun::start(Checks run) {
     failure_.clear();
     was_stopped_ = false;
     outcome_ = Outcome::Running;
-    job_ = std::make_unique<BackgroundJob<Nothing>>(
+    job_ = std::make_unique<BackgroundJob<std::monostate>>(
         [run = std::move(run), incoming = incoming_](const JobMonitor& monitor) {
             run(monitor, [&](const SelfCheck& check) {
                 const std::lock_guard lock(incoming->mutex);
                 incoming->checks.push_back(check);
             });
-            return Nothing{};
+            return std::monostate{};
         });
 }
 

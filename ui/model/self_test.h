@@ -47,8 +47,7 @@ private:
     Outcome outcome_ = Outcome::None;
     std::string failure_;
     bool was_stopped_ = false;
-    struct Nothing {};
-    std::unique_ptr<BackgroundJob<Nothing>> job_;
+    std::unique_ptr<BackgroundJob<std::monostate>> job_;
 };
 
 const char* name_of(SelfTestRun::Outcome outcome);

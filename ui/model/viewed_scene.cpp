@@ -28,7 +28,7 @@ void SceneLoader::load(LoadOrder order) {
 
 void SceneLoader::start(LoadOrder order) {
     running_ = std::move(order);
-    jobs_.push([this, request = running_->scene]() -> JobThread::Report {
+    jobs_.push([this, request = running_->scene]() -> Jobs::Report {
         std::shared_ptr<const SceneDescription> scene;
         std::string failure;
         try {

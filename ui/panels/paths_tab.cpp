@@ -234,9 +234,9 @@ void draw_shares(const diagnose::PixelNoise& noise) {
     ImGui::TableSetupColumn("default");
     if (noise.guided) ImGui::TableSetupColumn(std::string(info_of(noise.guided_method).name).c_str());
     ImGui::TableHeadersRow();
-    for (const diagnose::FoundByInfo& info : diagnose::all_found_by())
+    for (const ChoiceInfo<diagnose::FoundBy>& info : kChoices<diagnose::FoundBy>)
         draw_part(noise, std::string(info.label), [&](const diagnose::NoiseShares& shares) {
-            return shares.found_by[static_cast<std::size_t>(info.id)];
+            return shares.found_by[static_cast<std::size_t>(info.value)];
         });
     draw_noise_heading("by bounces");
     for (std::size_t i = 0; i < diagnose::kBounceClasses; ++i)

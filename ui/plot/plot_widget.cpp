@@ -63,8 +63,8 @@ void draw_triangle(ImDrawList& list, const PlotView& view, const Rect& frame, do
     list.AddText({corner.x, corner.y + em(0.2f)}, colors::kFaint, fmt::format("slope {:g}", slope).c_str());
 }
 
-void draw_polyline(ImDrawList& list, std::span<const Vec2f> points, ImU32 color, LineStyle style, float width) {
-    if (style == LineStyle::Full) {
+void draw_polyline(ImDrawList& list, std::span<const Vec2f> points, ImU32 color, bool is_dashed, float width) {
+    if (!is_dashed) {
         for (std::size_t i = 0; i + 1 < points.size(); ++i)
             list.AddLine(to_imgui(points[i]), to_imgui(points[i + 1]), color, width);
         return;
@@ -145,7 +145,7 @@ void draw_lines(ImDrawList& list, std::span<const PlotLine> lines, const PlotVie
             if (line.in_progress && comparable)
                 draw_band(list, line.points, view, frame,
                           to_imgui_color((line.color & 0xffffffu) | kBandAlpha << 24));
-            draw_polyline(list, points, color, line.style, line.in_progress ? 2.5f : 1.5f);
+            draw_polyline(list, points, color, line.is_dashed, line.in_progress ? 2.5f : 1.5f);
             for (const Vec2f& point : points) draw_marker(list, point, color, line.marker);
         }
     list.PopClipRect();
@@ -174,7 +174,7 @@ void draw_cursor_line(ImDrawList& list, const Rect& frame, const PlotView& view,
 void draw_sample(ImDrawList& list, const PlotLine& line, ImVec2 left, float width) {
     const ImU32 color = to_imgui_color(line.hidden || !line.comparable ? kGray : line.color);
     const std::array<Vec2f, 2> ends{Vec2f{left.x, left.y}, Vec2f{left.x + width, left.y}};
-    draw_polyline(list, ends, color, line.style, 2.0f);
+    draw_polyline(list, ends, color, line.is_dashed, 2.0f);
     draw_marker(list, 0.5f * (ends[0] + ends[1]), color, line.marker);
 }
 

@@ -75,7 +75,7 @@ std::string name_of(const RunLabel& label) {
     return name;
 }
 
-LineStyle style_of(const RunLabel& label) { return label.next_event ? LineStyle::Full : LineStyle::Dashed; }
+bool is_dashed(const RunLabel& label) { return !label.next_event; }
 
 PlotMarker marker_of(const RunLabel& label) { return {.square = label.backend != "cpu", .hollow = label.warm}; }
 

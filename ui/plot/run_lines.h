@@ -48,9 +48,8 @@ Curve other_cost_of(const LiveRun& run, CostAxis axis);
 /// "Reinforcement CPU, light samples, warm": everything that distinguishes the run from others.
 std::string name_of(const RunLabel& label);
 
-/// Full with light samples, dashed without.
-enum class LineStyle { Full, Dashed };
-LineStyle style_of(const RunLabel& label);
+/// Lines of runs without light samples are dashed.
+bool is_dashed(const RunLabel& label);
 
 /// The mark at each point of a run.
 struct PlotMarker {

@@ -72,7 +72,7 @@ WindowPlace place_on_screens(WindowPlace wanted, std::span<const ScreenArea> scr
     return wanted;
 }
 
-WindowPlan plan_window(const WindowOptions& options, const Screen& screen) {
+WindowOptions plan_window(const WindowOptions& options, const Screen& screen) {
     const float scale = options.ui_scale > 0.0f ? options.ui_scale : scale_for(screen);
     if (options.width > 0 && options.height > 0) return {options.width, options.height, scale};
     const float title_bar = kTitleBar * scale;
@@ -275,6 +275,6 @@ std::optional<WindowPlace> Display::place(const std::optional<WindowPlace>& befo
     return now;
 }
 
-ScreenPixels Display::read_pixels() const { return ui::read_pixels(renderer_); }
+ByteImage Display::read_pixels() const { return ui::read_pixels(renderer_); }
 
 }  // namespace pl::ui

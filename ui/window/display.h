@@ -19,12 +19,6 @@ struct Screen {
     float dots_per_inch = 0.0f;  ///< 0: unknown, or the desktop enlarges windows itself
 };
 
-struct WindowPlan {
-    int width;
-    int height;
-    float ui_scale;
-};
-
 /// The usable part of one of several screens.
 struct ScreenArea {
     int x = 0;
@@ -43,7 +37,7 @@ WindowPlace place_on_screens(WindowPlace wanted, std::span<const ScreenArea> scr
 
 /// The scale grows in halves with the density of the screen, as long as the panels have room; the window is
 /// 1440 x 900 times the scale, or as much of it as fits the screen. A requested size is taken as it is.
-WindowPlan plan_window(const WindowOptions& options, const Screen& screen);
+WindowOptions plan_window(const WindowOptions& options, const Screen& screen);
 
 }  // namespace pl::ui
 
@@ -100,7 +94,7 @@ public:
     /// Of the window now. In full screen and minimized that is `before`.
     std::optional<WindowPlace> place(const std::optional<WindowPlace>& before) const;
     /// The pixels drawn since the last present; slow.
-    ScreenPixels read_pixels() const;
+    ByteImage read_pixels() const;
 
 private:
     bool open(const std::string& title, bool software);
@@ -108,7 +102,7 @@ private:
     void close();
 
     VideoSubsystem video_;
-    WindowPlan plan_;
+    WindowOptions plan_;
     std::optional<WindowPlace> place_;
     SDL_Window* window_ = nullptr;
     SDL_Renderer* renderer_ = nullptr;

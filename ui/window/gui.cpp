@@ -64,7 +64,7 @@ void Gui::frame(double delta_seconds, const std::function<void()>& build) {
 void Gui::draw() { draw_.draw(*ImGui::GetDrawData()); }
 
 void draw_interface(ViewerModel& model, const Layout& layout, const Rect& image, const ComparePlan& plan,
-                    const std::optional<HoveredPixel>& hovered, const Magnifier* magnifier) {
+                    const std::optional<PixelPosition>& hovered, const Magnifier* magnifier) {
     if (layout.panels) {
         draw_menu_bar(model, layout);
         if (layout.left.width > 0.0f) draw_settings_panel(model, layout);

@@ -93,6 +93,6 @@ private:
 /// Panels and overlays of a frame of Dear ImGui, the later ones on top. `image` is the rectangle of the picture, `magnifier` null
 /// without one.
 void draw_interface(ViewerModel& model, const Layout& layout, const Rect& image, const ComparePlan& plan,
-                    const std::optional<HoveredPixel>& hovered, const Magnifier* magnifier);
+                    const std::optional<PixelPosition>& hovered, const Magnifier* magnifier);
 
 }  // namespace pl::ui

@@ -15,7 +15,7 @@ struct SDL_Surface;
 namespace pl::ui {
 
 /// The pixels of a renderer's target. Throws Error(Runtime).
-ScreenPixels read_pixels(SDL_Renderer* renderer);
+ByteImage read_pixels(SDL_Renderer* renderer);
 
 class Offscreen {
 public:

@@ -16,16 +16,8 @@ namespace pl::ui {
 
 // Edits queued for the render thread: of each kind, and of each material and forgotten volume, only the newest is kept.
 
-/// Another method or view in the window: the render thread turns to another film of the session.
-struct EditMethod {
-    MethodId method;
-};
-struct EditView {
-    View view;
-};
-
 /// A change to the session, or to the film that is shown.
-using WorkerEdit = std::variant<SessionEdit, EditMethod, EditView>;
+using WorkerEdit = std::variant<SessionEdit, MethodId, View>;
 
 /// The session edit of this kind, or null.
 template <class Edit>

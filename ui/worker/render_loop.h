@@ -34,13 +34,6 @@ public:
     void run(const WorkerSetup& setup);
 
 private:
-    /// The parts of the learned field that the window shows.
-    struct Watched {
-        Inspection selected{};
-        std::vector<Inspection> pins{};  ///< in the order of Requests::pins
-        FieldHistoryRecorder history{};
-    };
-
     bool start_session(const WorkerSetup& setup);
     bool take_requests();
     bool has_work() const;
@@ -94,7 +87,11 @@ private:
     MotionPreview preview_;
     Recorder runs_;
     CellRenderer cells_;
-    Watched watched_;
+    // The parts of the learned field that the window shows.
+    Inspection selected_{};
+    std::vector<Inspection> pins_{};  ///< in the order of Requests::pins
+    FieldHistoryRecorder history_{};
+
     FrameSchedule frames_;
     SceneFacts facts_;              ///< of the session's scene
     std::uint64_t all_passes_ = 0;  ///< of every film, since the start

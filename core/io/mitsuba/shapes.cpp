@@ -93,9 +93,9 @@ FileMesh read_file_mesh(const MitsubaObject& shape, const std::filesystem::path&
         std::vector<glm::vec3> colors = std::move(read.colors);
         return {.mesh = mesh_of(std::move(read)), .vertex_colors = std::move(colors)};
     }
-    SerializedMesh read =
-        read_serialized(path, static_cast<std::int64_t>(shape.number("shape_index").value_or(0.0f)));
-    return {.mesh = mesh_of(std::move(read.mesh)), .is_flat = read.is_flat};
+    PlyMesh read = read_serialized(path, static_cast<std::int64_t>(shape.number("shape_index").value_or(0.0f)));
+    const bool is_flat = read.is_flat;
+    return {.mesh = mesh_of(std::move(read)), .is_flat = is_flat};
 }
 
 /// The colors of a file's vertices, for a surface that shows them.

@@ -96,12 +96,12 @@ glm::dvec3 srgb_of_xyz(const glm::dvec3& xyz) {
 
 }  // namespace
 
-glm::vec3 color_of(const WavelengthSpectrum& spectrum, SpectrumRole role) {
+glm::vec3 color_of(const WavelengthSpectrum& spectrum, bool shines) {
     glm::dvec3 sum(0.0);
     double of_flat = 0.0;
     for (double wavelength = kFirst; wavelength <= kLast; wavelength += 1.0) {
         const ObservedColor at = observed_at(wavelength);
-        const double light = role == SpectrumRole::Lit ? at.d65 : 1.0;
+        const double light = shines ? 1.0 : at.d65;
         sum += light * value_at(spectrum, wavelength) * glm::dvec3(at.x, at.y, at.z);
         of_flat += light * at.y;
     }
@@ -188,7 +188,7 @@ bool MitsubaObject::shines() const {
 glm::vec3 MitsubaObject::spectrum_color(const WavelengthSpectrum& spectrum) const {
     const std::string fault = fault_of(spectrum);
     if (!fault.empty()) fail(fmt::format("'{}': {}", attribute("name"), fault));
-    return color_of(spectrum, shines() ? SpectrumRole::Shines : SpectrumRole::Lit);
+    return color_of(spectrum, shines());
 }
 
 glm::vec3 MitsubaObject::own_color() const {
@@ -221,7 +221,7 @@ glm::vec3 MitsubaObject::color_of_type(const std::string& type) const {
         const std::optional<double> temperature = parse_number(kelvins);
         if (!temperature || !(*temperature > 0.0))
             fail(fmt::format("'temperature': expected kelvins above 0, got {}", in_quotes(kelvins)));
-        return color_of(black_body(*temperature), SpectrumRole::Shines) *
+        return color_of(black_body(*temperature), true) *
                static_cast<float>(number_or("scale", static_cast<double>(number("scale").value_or(1.0f))));
     }
     leave_out(fmt::format("spectra of the type {} are shown as gray", in_quotes(type)));

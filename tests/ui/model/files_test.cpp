@@ -95,9 +95,9 @@ TEST_CASE("Saved fields: a viewer started from a field continues from it") {
         REQUIRE(eventually([&] { return worker.status().state == WorkerState::Done; }));
         worker.request_learned();
         std::optional<LearnedAnswer> answer;
-        REQUIRE(eventually([&] { return (answer = worker.take_learned()).has_value(); }));
-        REQUIRE(answer->field);
-        bench.options.field = answer->field;
+        REQUIRE(eventually([&] { return (answer = worker.take<LearnedAnswer>()).has_value(); }));
+        REQUIRE(answer->value);
+        bench.options.field = answer->value;
     }
     bench.options.settings.method = MethodId::Reinforcement;
     bench.options.settings.field = bench.options.field->settings;

@@ -204,11 +204,6 @@ struct MaterialBench : ModelBench {
     MaterialBench() : ModelBench(16) {}
 };
 
-MaterialDescription with_albedo(MaterialDescription material, float value) {
-    material.albedo = glm::vec3{value};
-    return material;
-}
-
 }  // namespace
 
 TEST_CASE("Viewed scene: a scene that cannot be read leaves the old one, with a message") {

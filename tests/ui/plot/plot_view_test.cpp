@@ -27,12 +27,6 @@ TEST_CASE("Plot: a press takes hold of cursors and axes, else of the plot") {
     CHECK(drag_at({204.0f, 100.0f}, kFrame, {}, 97.0f) == PlotDrag::EqualError);
 }
 
-namespace {
-
-constexpr Rect kFrame{100.0f, 50.0f, 300.0f, 200.0f};
-
-}  // namespace
-
 TEST_CASE("Plot: values and places in the window lead to each other") {
     const PlotView view({.x_low = 0.1, .x_high = 100.0, .y_low = 1e-4, .y_high = 1.0});
     const Vec2f corner = view.to_window({0.1, 1e-4}, kFrame);

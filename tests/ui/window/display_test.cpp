@@ -8,29 +8,29 @@ using namespace pl;
 using namespace pl::ui;
 
 TEST_CASE("Window plan: without knowledge of the screen the window has its design size") {
-    const WindowPlan plan = plan_window({}, {});
+    const WindowOptions plan = plan_window({}, {});
     CHECK(plan.width == 1440);
     CHECK(plan.height == 900);
     CHECK(plan.ui_scale == 1.0f);
 }
 
 TEST_CASE("Window plan: the window fits small screens with its title bar") {
-    const WindowPlan small = plan_window({}, {.width = 1280, .height = 720, .dots_per_inch = 96.0f});
+    const WindowOptions small = plan_window({}, {.width = 1280, .height = 720, .dots_per_inch = 96.0f});
     CHECK(small.width == 1280);
     CHECK(small.height == 684);
     CHECK(small.ui_scale == 1.0f);
-    const WindowPlan laptop = plan_window({}, {.width = 1366, .height = 728, .dots_per_inch = 112.0f});
+    const WindowOptions laptop = plan_window({}, {.width = 1366, .height = 728, .dots_per_inch = 112.0f});
     CHECK(laptop.width == 1366);
     CHECK(laptop.height == 692);
     CHECK(laptop.ui_scale == 1.0f);
 }
 
 TEST_CASE("Window plan: text and window grow on dense screens in halves") {
-    const WindowPlan ultra_hd = plan_window({}, {.width = 3840, .height = 2120, .dots_per_inch = 163.0f});
+    const WindowOptions ultra_hd = plan_window({}, {.width = 3840, .height = 2120, .dots_per_inch = 163.0f});
     CHECK(ultra_hd.ui_scale == 1.5f);
     CHECK(ultra_hd.width == 2160);
     CHECK(ultra_hd.height == 1350);
-    const WindowPlan dense = plan_window({}, {.width = 2560, .height = 1440, .dots_per_inch = 227.0f});
+    const WindowOptions dense = plan_window({}, {.width = 2560, .height = 1440, .dots_per_inch = 227.0f});
     CHECK(dense.ui_scale == 2.0f);
     CHECK(dense.width == 2560);
     CHECK(dense.height == 1368);
@@ -43,11 +43,11 @@ TEST_CASE("Window plan: text and window grow on dense screens in halves") {
 
 TEST_CASE("Window plan: sizes and scales that were asked for are taken") {
     const Screen screen{.width = 1280, .height = 720, .dots_per_inch = 200.0f};
-    const WindowPlan sized = plan_window({.width = 1600, .height = 1000}, screen);
+    const WindowOptions sized = plan_window({.width = 1600, .height = 1000}, screen);
     CHECK(sized.width == 1600);
     CHECK(sized.height == 1000);
     CHECK(sized.ui_scale == 1.0f);
-    const WindowPlan scaled = plan_window({.ui_scale = 1.25f}, screen);
+    const WindowOptions scaled = plan_window({.ui_scale = 1.25f}, screen);
     CHECK(scaled.ui_scale == 1.25f);
     CHECK(scaled.width == 1280);
     CHECK(scaled.height == 675);

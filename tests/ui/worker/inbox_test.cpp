@@ -27,9 +27,9 @@ TEST_CASE("Edit queue: of each kind only the newest is left, in order of its arr
     second.fov_deg = 20.0f;
     queue.push(EditCamera{first});
     queue.push(EditScene{nullptr});
-    queue.push(EditMethod{MethodId::Precomputed});
+    queue.push(MethodId::Precomputed);
     queue.push(EditCamera{second});
-    queue.push(EditMethod{MethodId::Reinforcement});
+    queue.push(MethodId::Reinforcement);
     const auto edits = queue.take();
     CHECK(queue.empty());
     REQUIRE(edits.size() == 3);
@@ -37,7 +37,7 @@ TEST_CASE("Edit queue: of each kind only the newest is left, in order of its arr
     CHECK(find_edit<EditScene>(edits[0]));
     REQUIRE(find_edit<EditCamera>(edits[1]));
     CHECK(find_edit<EditCamera>(edits[1])->camera.fov_deg == 20.0f);
-    CHECK(std::get<EditMethod>(edits[2]).method == MethodId::Reinforcement);
+    CHECK(std::get<MethodId>(edits[2]) == MethodId::Reinforcement);
 }
 
 TEST_CASE("Edit queue: of each material only the newest edit is left, and a scene replaces them all") {

@@ -139,7 +139,7 @@ TEST_CASE("Turns on the render thread: a camera that moves starts both over, an 
     REQUIRE(frame_of(worker, moved));
     CHECK(eventually([&] { return both_rendered(worker, 2); }));
     worker.set_turns(std::nullopt);
-    const std::uint64_t back = worker.submit(EditMethod{MethodId::Reinforcement});
+    const std::uint64_t back = worker.submit(MethodId::Reinforcement);
     const auto frame = frame_of(worker, back);
     REQUIRE(frame);
     CHECK(frame->snapshot.slot.method == MethodId::Reinforcement);

@@ -185,7 +185,7 @@ TEST_CASE("Motion preview on the render thread: it keeps what was learned, and c
     Bench bench;
     RenderWorker worker(bench.setup(MethodId::Reinforcement));
     REQUIRE(has_learned(worker, 5));
-    worker.submit(EditMethod{MethodId::Default});
+    worker.submit(MethodId::Default);
     worker.set_moving(true);
     auto frame = frame_of(worker, worker.submit(EditCamera{camera_at(1.0f)}));
     REQUIRE(frame);
@@ -196,7 +196,7 @@ TEST_CASE("Motion preview on the render thread: it keeps what was learned, and c
     REQUIRE(frame);
     CHECK(frame->preview == Preview::None);
     worker.set_moving(false);
-    worker.submit(EditMethod{MethodId::Reinforcement});
+    worker.submit(MethodId::Reinforcement);
     REQUIRE(has_learned(worker, 5));
     CHECK(worker.status().field->passes >= 5);
 }
