@@ -156,9 +156,9 @@ RenderSettings Viewer::first_settings(const SceneDescription& scene) const {
         SDL_GetRendererOutputSize(display_.renderer(), &width, &height);
         const Layout layout = make_layout(static_cast<float>(width), static_cast<float>(height),
                                           kFontPixels * display_.ui_scale(), memory_.last().panels, false);
-        const ImageSize size = fit_image(layout.view, settings.width, settings.height);
-        settings.width = size.width;
-        settings.height = size.height;
+        const glm::ivec2 size = fit_image(layout.view, settings.width, settings.height);
+        settings.width = size.x;
+        settings.height = size.y;
     }
     return settings;
 }
@@ -291,8 +291,8 @@ void Viewer::answer_requests() {
     if (std::exchange(requests.reset, false)) reset_window();
     if (std::exchange(requests.fit_size, false)) {
         const RenderSettings settings = model_.render().settings();
-        const ImageSize size = fit_image(layout_.view, settings.width, settings.height);
-        model_.render().set_size(size.width, size.height);
+        const glm::ivec2 size = fit_image(layout_.view, settings.width, settings.height);
+        model_.render().set_size(size.x, size.y);
     }
     if (std::string title = model_.title(); title != title_) {
         title_ = std::move(title);

@@ -176,7 +176,7 @@ public:
 
     std::uint32_t add(const MtlMap& map, TextureContent content) {
         if (!map) return kNoTexture;
-        const NamedFile file = find_named_file(root_, from_, map.name, NamedKind::Image);
+        const NamedFile file = find_named_file(root_, from_, map.name, true);
         if (!file.is_there && file.is_elsewhere) {
             return add_texture_by(scene_, file.path, content, !map.clamps, [&]() -> TextureDescription {
                 throw Error(ErrorKind::Input,

@@ -16,14 +16,12 @@ namespace {
 using Words = std::vector<std::string_view>;
 
 /// Smallest and largest number of arguments of an option; those after the first are numbers.
-struct OptionWords {
-    std::size_t least, most;
-};
-OptionWords words_of_option(std::string_view option) {
+std::array<std::size_t, 2> words_of_option(std::string_view option) {
     if (option == "-s" || option == "-o" || option == "-t") {
         return {1, 3};
     }
-    return option == "-mm" ? OptionWords{2, 2} : OptionWords{1, 1};
+    const std::size_t count = option == "-mm" ? 2 : 1;
+    return {count, count};
 }
 
 bool are_numbers(const Words& words, std::initializer_list<double> wanted) {
@@ -84,10 +82,9 @@ ParsedMap parse_map(std::string_view arguments) {
     std::size_t at = 0;
     while (at < words.size() && is_option(words[at])) {
         const std::string_view option = words[at++];
-        const OptionWords count = words_of_option(lower_case(option));
+        const auto [least, most] = words_of_option(lower_case(option));
         Words values;
-        while (values.size() < count.most && at < words.size() &&
-               (values.size() < count.least || parse_number(words[at]))) {
+        while (values.size() < most && at < words.size() && (values.size() < least || parse_number(words[at]))) {
             values.push_back(words[at++]);
         }
         if (!read_option(lower_case(option), values, result.map)) {

@@ -143,7 +143,7 @@ Rect place_image(const Rect& view, int width, int height) {
             shown_w, shown_h};
 }
 
-ImageSize fit_image(const Rect& view, int width, int height) {
+glm::ivec2 fit_image(const Rect& view, int width, int height) {
     constexpr float kMinWidth = 64.0f;
     const float shape = static_cast<float>(std::max(height, 1)) / static_cast<float>(std::max(width, 1));
     const float w = std::max(std::floor(std::min(view.width, view.height / shape)), kMinWidth);

@@ -70,8 +70,7 @@ void SceneGallery::show_drafts(const std::vector<std::string>& names, const std:
             const std::shared_ptr<const SceneDescription> scene = options_.load_scene({name});
             if (auto kept = folder.empty() ? std::nullopt : read_thumbnail(folder / thumbnail_name(*scene)))
                 hand_over(&Incoming::pictures, name, *std::move(kept));
-            else if (auto draft =
-                         render_thumbnail(scene, options_.make_side_backend, ThumbnailQuality::Draft, monitor.stop))
+            else if (auto draft = render_thumbnail(scene, options_.make_side_backend, true, monitor.stop))
                 hand_over(&Incoming::drafts, name, *std::move(draft));
         } catch (const std::exception&) {
             continue;  // the whole picture's failure is told
@@ -91,7 +90,7 @@ std::optional<ByteImage> SceneGallery::make(const std::string& name, const std::
     const std::filesystem::path file = folder / thumbnail_name(*scene);
     if (!folder.empty())
         if (auto kept = read_thumbnail(file)) return kept;
-    auto image = render_thumbnail(scene, options_.make_side_backend, ThumbnailQuality::Whole, monitor.stop);
+    auto image = render_thumbnail(scene, options_.make_side_backend, false, monitor.stop);
     if (!image || folder.empty()) return image;
     try {
         make_folder(folder);

@@ -12,7 +12,7 @@ TEST_CASE("Answers: a surface under the image with its volume, or none") {
     const PickAnswer hit = answer_pick(bench.session, {0.5f, 0.65f});
     REQUIRE(hit.value);
     CHECK(hit.value->volume != kNoVolume);
-    CHECK_FALSE(answer_pick(bench.session, {0.01f, 0.01f}).point);
+    CHECK_FALSE(answer_pick(bench.session, {0.01f, 0.01f}).value);
 }
 
 TEST_CASE("Answers: a field of the method, or the reason why there is none") {
@@ -22,7 +22,7 @@ TEST_CASE("Answers: a field of the method, or the reason why there is none") {
     const LearnedAnswer answer = answer_learned(bench.session, MethodId::Reinforcement);
     REQUIRE(answer.value);
     CHECK(answer.value->progress.passes == 2);
-    CHECK_FALSE(answer_learned(bench.session, MethodId::Default).field);
+    CHECK_FALSE(answer_learned(bench.session, MethodId::Default).value);
 }
 
 TEST_CASE("Answers: diagnostics of a picture, or the reason why it has none") {
