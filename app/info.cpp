@@ -9,7 +9,6 @@
 #include "app/parse_values.h"
 #include "core/io/camera_file.h"
 #include "core/scene/default_light.h"
-#include "core/scene/effect_reasons.h"
 #include "core/scene/instances.h"
 #include "core/scene/needed_effects.h"
 #include "core/scene/pack_scene.h"

@@ -5,7 +5,6 @@
 
 #include "core/base/parallel.h"
 #include "core/fields/extent.h"
-#include "core/fields/radical_inverse.h"
 #include "core/fields/walk.h"
 #include "core/kernel/base/rng.h"
 #include "core/kernel/guiding/volume_lookup.h"

@@ -41,4 +41,9 @@ std::vector<KdNode> build_kd_tree(Span<const SurfacePoint> sites);
 /// The same of nodes in any order, whose axes are set.
 std::vector<KdNode> build_kd_tree(std::vector<KdNode> nodes);
 
+/// Whether place_volumes() returns the same volumes for both scenes, which differ in materials alone. Conservative:
+/// true only if every changed property is one that placement does not read, such as the color of a surface that stays
+/// diffuse.
+bool same_placement(const HostScene& before, const HostScene& after);
+
 }  // namespace pl

@@ -1,6 +1,8 @@
 // The common part of the walks of a placement: paths that sample the BSDF, independent of the picture's seed.
 #pragma once
 
+#include "core/kernel/base/rng.h"
+#include "core/kernel/base/sobol.h"
 #include "core/kernel/shading/bsdf.h"
 
 namespace pl {
@@ -25,5 +27,8 @@ inline Vec3f leave_surface(const SurfacePoint& point, const Bsdf<kWalkEffects>& 
     if (u.z < bsdf.delta_probability()) return bsdf.sample_delta(point, u.w).wi;
     return bsdf.sample(point, {u.x, u.y}, u.w);
 }
+
+/// Bits of `index` mirrored behind the binary point, in [0, 1).   [van der Corput 1935]
+inline float radical_inverse(std::uint32_t index) { return to_unit_float(reversed_bits(index)); }
 
 }  // namespace pl

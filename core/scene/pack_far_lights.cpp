@@ -1,4 +1,4 @@
-#include "core/scene/pack_far_lights.h"
+#include "core/scene/pack_steps.h"
 
 #include <algorithm>
 #include <bit>

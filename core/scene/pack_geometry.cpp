@@ -1,4 +1,4 @@
-#include "core/scene/pack_geometry.h"
+#include "core/scene/pack_steps.h"
 
 #include <algorithm>
 #include <utility>
@@ -7,7 +7,6 @@
 #include "core/scene/build_bvh.h"
 #include "core/scene/instances.h"
 #include "core/scene/normals.h"
-#include "core/scene/pack_instances.h"
 #include "core/scene/triangle_planes.h"
 
 namespace pl {

@@ -1,4 +1,4 @@
-#include "core/scene/pack_instances.h"
+#include "core/scene/pack_steps.h"
 
 #include <algorithm>
 #include <cmath>

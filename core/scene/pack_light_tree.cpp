@@ -1,4 +1,4 @@
-#include "core/scene/pack_light_tree.h"
+#include "core/scene/pack_steps.h"
 
 #include <algorithm>
 #include <array>

@@ -11,11 +11,7 @@
 #include "core/kernel/shading/fresnel.h"
 #include "core/scene/instance_boxes.h"
 #include "core/scene/instances.h"
-#include "core/scene/pack_far_lights.h"
-#include "core/scene/pack_geometry.h"
-#include "core/scene/pack_instances.h"
-#include "core/scene/pack_light_tree.h"
-#include "core/scene/pack_textures.h"
+#include "core/scene/pack_steps.h"
 #include "core/scene/surface_info.h"
 #include "core/scene/triangle_planes.h"
 

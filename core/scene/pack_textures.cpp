@@ -1,4 +1,4 @@
-#include "core/scene/pack_textures.h"
+#include "core/scene/pack_steps.h"
 
 #include <algorithm>
 #include <vector>

@@ -4,12 +4,12 @@
 
 #include "core/base/error.h"
 #include "core/base/timer.h"
-#include "core/fields/same_placement.h"
+#include "core/fields/place_volumes.h"
 #include "core/kernel/integrator/holes.h"
 #include "core/scene/scene_hash.h"
 #include "core/session/exact_backend.h"
 #include "core/session/path_settings.h"
-#include "core/session/settings_text.h"
+#include "core/session/settings.h"
 
 namespace pl {
 namespace {

@@ -3,6 +3,9 @@
 
 #include <cstdint>
 #include <limits>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "core/fields/field_settings.h"
 #include "core/kernel/base/features.h"
@@ -48,5 +51,8 @@ struct DisplaySettings {
 
     friend bool operator==(const DisplaySettings&, const DisplaySettings&) = default;
 };
+
+/// Name and value of each setting that decides the bits of a rendering, by which a checkpoint knows its run: in a fixed order, reals to their last bit. Without `forced_effects`, which change no picture.
+std::vector<std::pair<std::string, std::string>> settings_text(const RenderSettings& settings);
 
 }  // namespace pl

@@ -9,7 +9,6 @@ namespace pl::benchmarks {
 namespace {
 
 using Picture = std::vector<Vec3f>;
-using pl::test::WithinRel;
 
 const float kNanValue = std::numeric_limits<float>::quiet_NaN();
 

@@ -1,6 +1,5 @@
 #include "ui/model/effects_model.h"
 
-#include "core/scene/effect_reasons.h"
 #include "core/scene/needed_effects.h"
 #include "core/session/session.h"
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/scene/effect_reasons.h"
+#include "core/scene/needed_effects.h"
 #include "ui/worker/published_frame.h"
 
 namespace pl::ui {

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <numeric>
 
-#include "core/fields/disagreement.h"
 #include "core/fields/volume_grid.h"
 #include "core/kernel/guiding/update_volume.h"
 #include "tests/core/fields/lit_room.h"

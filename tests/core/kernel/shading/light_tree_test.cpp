@@ -2,7 +2,7 @@
 #include "core/kernel/shading/light_tree.h"
 
 #include "core/scene/needed_effects.h"
-#include "core/scene/pack_light_tree.h"
+#include "core/scene/pack_steps.h"
 #include "tests/core/kernel/shading/light_density.h"
 #include "tests/support/catch.hpp"
 #include "tests/support/shading/many_lights.h"

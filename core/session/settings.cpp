@@ -1,4 +1,4 @@
-#include "core/session/settings_text.h"
+#include "core/session/settings.h"
 
 #include <fmt/format.h>
 
