@@ -7,8 +7,7 @@
 #include <fmt/format.h>
 
 #include "app/progress.h"
-#include "core/diagnose/find_diagnostics.h"
-#include "core/diagnose/mark_diagnostics.h"
+#include "core/diagnose/diagnostics.h"
 #include "core/io/picture_file.h"
 #include "core/kernel/film/frame_pixel.h"
 

@@ -3,11 +3,15 @@
 
 #include <span>
 #include <string>
+#include <vector>
 
 #include "app/canvas.h"
 #include "core/fields/disc_frame.h"
 #include "core/fields/inspect_field.h"
+#include "core/inspect/guiding_figures.h"
+#include "core/io/image.h"
 #include "core/plot/value_scale.h"
+#include "core/scene/description.h"
 
 namespace pl {
 
@@ -49,5 +53,25 @@ private:
 
 /// Color of a position in a range, see heat_color().
 Rgb map_color_of(float position);
+
+// The learned hemisphere of a radiance volume as a picture: equal-area discs with a legend.
+
+/// One large disc of the learned radiance, two small ones of probability and visits, with their captions, in the DiscFrame of
+/// volume and camera. Colors as in the window: each disc over its own values, logarithmic.
+ByteImage draw_hemisphere(const VolumeInspection& volume, const CameraDescription& camera, const std::string& title);
+
+/// The lines above all discs: title, volume, position, and the world directions of the disc's axes.
+std::vector<std::string> hemisphere_lines(const VolumeInspection& volume, const CameraDescription& camera,
+                                          const std::string& title);
+
+// The learned hemisphere of a radiance volume beside the light that reaches it, as a picture and as text.
+
+/// Learned beside true radiance, on one scale; below them the density that leaves no variance beside that of guided paths, on one
+/// scale, both relative to cosine sampling.
+ByteImage draw_truth(const VolumeInspection& volume, const LightReport& truth, const CameraDescription& camera,
+                     const std::string& title);
+
+/// Paths, divergences and variance factor with their 95 % intervals.
+std::vector<std::string> truth_lines(const LightReport& truth);
 
 }  // namespace pl

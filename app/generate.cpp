@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "app/choices.h"
 #include "app/help.h"
+#include "app/option_parsers.h"
 #include "app/options.h"
 #include "core/io/load_scene.h"
 

@@ -6,9 +6,9 @@
 
 #include <fmt/format.h>
 
-#include "app/build_info.h"
 #include "app/events.h"
 #include "app/options.h"
+#include "app/version.h"
 
 namespace pl {
 namespace {
@@ -164,11 +164,11 @@ std::string in_columns(const std::string& head, std::string_view text) {
     return result + "\n";
 }
 
-bool is_shown(const OptionSpec& spec, Command command, HelpExtent extent) {
-    return !spec.group.empty() && spec.commands.has(command) && (extent == HelpExtent::All || !spec.is_expert);
+bool is_shown(const OptionSpec& spec, Command command, bool is_whole) {
+    return !spec.group.empty() && spec.commands.has(command) && (is_whole || !spec.is_expert);
 }
 
-std::string options_help(Command command, HelpExtent extent) {
+std::string options_help(Command command, bool is_whole) {
     std::vector<std::string_view> groups;
     for (const OptionSpec& spec : option_table())
         if (std::find(groups.begin(), groups.end(), spec.group) == groups.end()) groups.push_back(spec.group);
@@ -176,7 +176,7 @@ std::string options_help(Command command, HelpExtent extent) {
     for (const std::string_view group : groups) {
         std::string lines;
         for (const OptionSpec& spec : option_table())
-            if (spec.group == group && is_shown(spec, command, extent))
+            if (spec.group == group && is_shown(spec, command, is_whole))
                 lines += in_columns(option_head(spec), spec.help_text());
         if (!lines.empty()) text += fmt::format("\n{}:\n{}", group, lines);
     }
@@ -184,12 +184,12 @@ std::string options_help(Command command, HelpExtent extent) {
 }
 
 /// The way to the options that are not shown; empty if all are.
-std::string rest_help(Command command, HelpExtent extent) {
-    const auto count = [&](HelpExtent of) {
+std::string rest_help(Command command, bool is_whole) {
+    const auto count = [&](bool with_expert) {
         return std::ranges::count_if(option_table(),
-                                     [&](const OptionSpec& spec) { return is_shown(spec, command, of); });
+                                     [&](const OptionSpec& spec) { return is_shown(spec, command, with_expert); });
     };
-    const auto hidden = count(HelpExtent::All) - count(extent);
+    const auto hidden = count(true) - count(is_whole);
     if (hidden == 0) return "";
     return fmt::format("\n{} more options: pathlight {} --help-all\n", hidden, command_name(command));
 }
@@ -228,14 +228,14 @@ std::string program_help() {
     return text;
 }
 
-std::string command_help(Command command, HelpExtent extent) {
+std::string command_help(Command command, bool is_whole) {
     const CommandInfo& info = info_of(command);
     const bool has_scene = info.inputs == Inputs::Scene || info.inputs == Inputs::Scenes;
     const std::string usage =
         fmt::format("pathlight {}{}{} [OPTIONS]", info.name, info.arguments.empty() ? "" : " ", info.arguments);
     return fmt::format("{}\n\nUsage: {}\n{}{}{}\n{}{}", info.summary, usage,
-                       has_scene ? fmt::format("\n{}", kScene) : "", options_help(command, extent),
-                       rest_help(command, extent), kExitCodes, examples_help(info));
+                       has_scene ? fmt::format("\n{}", kScene) : "", options_help(command, is_whole),
+                       rest_help(command, is_whole), kExitCodes, examples_help(info));
 }
 
 std::string licenses_text() {

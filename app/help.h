@@ -29,14 +29,10 @@ const CommandInfo& info_of(Command command);
 std::string_view scene_help();
 std::string_view exit_code_help();
 
-enum class HelpExtent {
-    Usual,  ///< without OptionSpec::is_expert
-    All,
-};
-
 /// Help of the whole program and of one subcommand. All texts end with a line feed.
 std::string program_help();
-std::string command_help(Command command, HelpExtent extent);
+/// Without OptionSpec::is_expert unless it `is_whole`.
+std::string command_help(Command command, bool is_whole);
 /// The program's licence and what others contributed.
 std::string licenses_text();
 /// Registries as a table, or as one JSON object per line.

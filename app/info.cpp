@@ -20,13 +20,8 @@
 namespace pl {
 namespace {
 
-struct Effect {
-    std::string name;
-    std::string reason;
-};
-
-std::vector<Effect> effects_of(FeatureSet needed, const SceneDescription& scene) {
-    std::vector<Effect> effects;
+std::vector<EffectRow> effects_of(FeatureSet needed, const SceneDescription& scene) {
+    std::vector<EffectRow> effects;
     for (const Feature feature : kAllFeatures)
         if (needed.has(feature))
             effects.push_back(
@@ -65,7 +60,7 @@ struct SceneReport {
     const SceneDescription& scene;
     const HostScene& packed;
     Bounds bounds;
-    std::vector<Effect> effects;
+    std::vector<EffectRow> effects;
     std::vector<std::string> compiled;
     std::string kernel;
 };
@@ -117,7 +112,7 @@ std::string report_text(const SceneReport& report) {
         text += fmt::format("           --camera {}: {}{}\n", i + 1, scene.cameras[i].name,
                             scene.chosen_camera == i + 1 ? " (this one)" : "");
     text += fmt::format("effects    {}\n", report.effects.empty() ? "none needed" : "");
-    for (const Effect& effect : report.effects)
+    for (const EffectRow& effect : report.effects)
         text += fmt::format("           {}: {}\n", effect.name, effect.reason);
     text += fmt::format("kernel     {} (compiled for: {})\n", report.kernel,
                         report.compiled.empty() ? "no effects" : fmt::format("{}", fmt::join(report.compiled, ", ")));
@@ -154,7 +149,8 @@ Json json_of(const SceneReport& report) {
     Json cameras = Json::array();
     for (const NamedCamera& camera : scene.cameras) cameras.push_back(camera.name);
     Json effects = Json::array();
-    for (const Effect& effect : report.effects) effects.push_back({{"name", effect.name}, {"reason", effect.reason}});
+    for (const EffectRow& effect : report.effects)
+        effects.push_back({{"name", effect.name}, {"reason", effect.reason}});
     Json json{{"name", scene.name},
               {"file", scene.source.string()},
               {"scene_hash", scene_hash(scene)},

@@ -5,8 +5,7 @@
 
 #include "app/closest_surface.h"
 #include "app/commands.h"
-#include "app/draw_truth.h"
-#include "app/field_files.h"
+#include "app/disc_picture.h"
 #include "app/inspection_file.h"
 #include "app/interrupt.h"
 #include "app/make_backend.h"
@@ -14,6 +13,7 @@
 #include "app/parse_values.h"
 #include "app/run_passes.h"
 #include "app/scene_picture.h"
+#include "app/state_files.h"
 #include "app/stats_json.h"
 #include "core/base/error.h"
 #include "core/base/timer.h"

@@ -4,8 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "app/draw_hemisphere.h"
-#include "app/draw_truth.h"
+#include "app/disc_picture.h"
 #include "app/parse_values.h"
 #include "core/base/error.h"
 #include "core/bench/bench_results.h"

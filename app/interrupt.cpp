@@ -6,11 +6,11 @@ namespace pl {
 namespace {
 
 // Signal handlers reach globals only.
-StopFlag interrupted{false};
+StopFlag raised_stop{false};
 static_assert(StopFlag::is_always_lock_free, "signal handlers may only touch lock-free atomics");
 
 void on_signal(int) {
-    if (interrupted.exchange(true)) _exit(kExitInterrupted);
+    if (raised_stop.exchange(true)) _exit(kExitInterrupted);
 }
 
 void handle(int signal, void (*handler)(int)) {
@@ -36,12 +36,12 @@ void install(void (*handler)(int)) {
 }  // namespace
 
 InterruptGuard::InterruptGuard() {
-    interrupted = false;
+    raised_stop = false;
     install(on_signal);
 }
 
 InterruptGuard::~InterruptGuard() { install(SIG_DFL); }
 
-const StopFlag* InterruptGuard::flag() const { return &interrupted; }
+const StopFlag* InterruptGuard::flag() const { return &raised_stop; }
 
 }  // namespace pl

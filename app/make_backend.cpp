@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "core/base/error.h"
-#include "core/base/work_queue.h"
+#include "core/base/parallel.h"
 #include "cpu/cpu_backend.h"
 #include "cuda/availability.h"
 #include "cuda/cuda_backend.h"

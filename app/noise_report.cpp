@@ -1,8 +1,15 @@
 #include "app/noise_report.h"
 
+#include <cmath>
+
 #include <fmt/format.h>
 
+#include "app/run_passes.h"
+#include "core/base/error.h"
 #include "core/bench/bench_results.h"
+#include "core/io/files.h"
+#include "core/io/picture_file.h"
+#include "core/measure/run_recorder.h"
 #include "core/session/methods.h"
 
 namespace pl {
@@ -27,8 +34,8 @@ std::string share_line(std::string_view name, const Interval& share) {
 
 std::string shares_text(const diagnose::NoiseShares& shares) {
     std::string text = "  noise by technique\n";
-    for (const diagnose::FoundByInfo& info : diagnose::all_found_by())
-        text += share_line(info.label, shares.found_by[static_cast<std::size_t>(info.id)]);
+    for (const ChoiceInfo<diagnose::FoundBy>& info : kChoices<diagnose::FoundBy>)
+        text += share_line(info.label, shares.found_by[static_cast<std::size_t>(info.value)]);
     text += "  noise by bounces\n";
     for (std::size_t i = 0; i < diagnose::kBounceClasses; ++i) text += share_line(bounce_name(i), shares.bounces[i]);
     text += "  noise by light\n";
@@ -53,9 +60,9 @@ Json estimate_json(std::string_view method, const diagnose::PixelEstimate& estim
               {"by_bounces", Json()},
               {"by_light", Json()}};
     if (!estimate.shares) return json;
-    for (const diagnose::FoundByInfo& info : diagnose::all_found_by())
+    for (const ChoiceInfo<diagnose::FoundBy>& info : kChoices<diagnose::FoundBy>)
         json["by_technique"][std::string(info.name)] =
-            bench::interval_json(estimate.shares->found_by[static_cast<std::size_t>(info.id)]);
+            bench::interval_json(estimate.shares->found_by[static_cast<std::size_t>(info.value)]);
     json["by_bounces"] = Json::array();
     for (const Interval& share : estimate.shares->bounces) json["by_bounces"].push_back(bench::interval_json(share));
     for (std::size_t i = 0; i < estimate.shares->lights.size(); ++i)
@@ -109,6 +116,124 @@ Json tile_gains_json(const TileGains& gains) {
               {"tiles", Json::array()}};
     for (const Interval& tile : gains.tiles) json["tiles"].push_back(mark_json(tile));
     return json;
+}
+
+namespace {
+
+/// A loaded field is taken as it is, unless limits ask for more training. `default` has nothing to learn.
+bool needs_no_training(const Options& options) {
+    const MethodInfo& method = info_of(options.render.method);
+    const bool is_loaded = !options.load_field.empty() && method.learns && !options.spp;
+    return !method.uses_field || is_loaded;
+}
+
+}  // namespace
+
+int trace_noise(Session& session, const Options& options, const InterruptGuard& interrupt, Console& console) {
+    if (!needs_no_training(options)) run_passes(session, options, interrupt, console, Until::Learned);
+    const FilmSlot slot = slot_of(options.render);
+    const auto pixel = static_cast<std::uint32_t>(options.pixel->y * options.render.width + options.pixel->x);
+    diagnose::PixelNoiseTracer tracer(diagnose::pass_pair(session, slot), pixel);
+    while (tracer.paths() < options.why_samples && tracer.advance(interrupt.flag())) {
+    }
+    if (!tracer.has_all_groups()) {
+        console.log().warning("interrupted: too few paths for an estimate");
+        return kExitInterrupted;
+    }
+    const diagnose::PixelNoise noise = tracer.noise();
+    const std::optional<FieldStatus> field = session.field_status(slot.method);
+    const NoiseOfPicture report{noise, options.render.width, field ? field->passes : 0};
+    if (console.json())
+        console.event("noise", noise_json(report));
+    else
+        console.result(noise_text(report));
+    return interrupt.raised() ? kExitInterrupted : 0;
+}
+
+namespace {
+
+bool is_json(const Options& options) { return std::filesystem::path(options.gain_file).extension() == ".json"; }
+
+/// Renders until the charged time is reached, and both halves have passes.
+bool render_for(Session& session, FilmSlot slot, double seconds, const InterruptGuard& interrupt) {
+    while (session.passes(slot) < 2 || charged_seconds(session.clocks(slot)) < seconds)
+        if (session.advance(slot, interrupt.flag()) == Progress::Stopped) return false;
+    return true;
+}
+
+TimedHalves timed(const Snapshot& snapshot) {
+    return {.halves = halves_of(snapshot.halves), .seconds = charged_seconds(snapshot.clocks)};
+}
+
+/// Whether a point is on the mark of a verdict, in units of its radius from its center, y down: a triangle up for a gain, one down for
+/// a loss, a disc for no difference, a ring where nothing is decided.
+bool is_on_mark(Verdict verdict, double x, double y) {
+    const double radius = std::hypot(x, y);
+    if (verdict == Verdict::NoDifference) return radius < 0.7;
+    if (verdict != Verdict::Faster && verdict != Verdict::Slower) return std::abs(radius - 0.6) < 0.15;
+    const double below_tip = 1.0 + (verdict == Verdict::Faster ? y : -y);  // 0 at the tip, 1.5 at the base
+    return below_tip < 1.5 && std::abs(x) < 0.58 * below_tip;
+}
+
+void draw_mark(ByteImage& image, const Interval& gain, glm::ivec2 low, glm::ivec2 high) {
+    const Verdict verdict = verdict_of(gain);
+    const std::uint32_t color = mark_color(verdict);
+    const double radius = 0.25 * std::min(high.x - low.x, high.y - low.y);
+    for (int y = low.y; y < high.y; ++y)
+        for (int x = low.x; x < high.x; ++x) {
+            if (!is_on_mark(verdict, (x + 0.5 - 0.5 * (low.x + high.x)) / radius,
+                            (y + 0.5 - 0.5 * (low.y + high.y)) / radius))
+                continue;
+            const auto at = 3 * static_cast<std::size_t>(y * image.width + x);
+            for (std::size_t channel = 0; channel < 3; ++channel)
+                image.rgb[at + channel] = static_cast<std::uint8_t>(color >> (16 - 8 * channel) & 255u);
+        }
+}
+
+ByteImage marked(ByteImage image, const TileGains& gains) {
+    const auto corner = [&](int column, int row) {
+        return glm::ivec2{TileGains::edge(column, gains.columns, image.width),
+                          TileGains::edge(row, gains.rows, image.height)};
+    };
+    for (int row = 0; row < gains.rows; ++row)
+        for (int column = 0; column < gains.columns; ++column)
+            draw_mark(image, gains.tiles[static_cast<std::size_t>(row * gains.columns + column)], corner(column, row),
+                      corner(column + 1, row + 1));
+    return image;
+}
+
+}  // namespace
+
+void require_gain(const Options& options) {
+    if (options.gain_file.empty()) return;
+    const MethodInfo& method = info_of(options.render.method);
+    if (!method.uses_field)
+        throw Error(ErrorKind::Usage, fmt::format("--gain: compares a guided method with default: expected --method "
+                                                  "precomputed or reinforcement, got {}",
+                                                  method.name));
+    if (!is_json(options) && image_kind(options.gain_file) != ImageKind::Png)
+        throw Error(ErrorKind::Usage,
+                    fmt::format("--gain: expected a .json or .png file, got '{}'", options.gain_file));
+    require_writable(options.gain_file);
+}
+
+bool write_gain(Session& session, const Snapshot& snapshot, const Options& options, const InterruptGuard& interrupt,
+                Console& console) {
+    const FilmSlot slot = slot_of(options.render);
+    const FilmSlot base{baseline_method(), slot.view};
+    if (!render_for(session, slot, 0.0, interrupt)) return false;
+    const Snapshot method = session.snapshot_with_halves(slot);
+    if (!render_for(session, base, charged_seconds(method.clocks), interrupt)) return false;
+    const Snapshot baseline = session.snapshot_with_halves(base);
+    const TileGains gains = tile_gains(timed(baseline), timed(method), method.width);
+    if (is_json(options))
+        write_text_file_atomic(options.gain_file, tile_gains_json(gains).dump(2) + "\n");
+    else
+        write_png8(options.gain_file, marked(display_image(snapshot, options.display), gains),
+                   {{"Software", "pathlight " PL_VERSION}});
+    console.remark(fmt::format("{}: {} {} in the time to the same noise\n", options.gain_file,
+                               info_of(slot.method).name, mark_text(gains.picture)));
+    return true;
 }
 
 }  // namespace pl

@@ -74,8 +74,7 @@ std::optional<std::string> help_asked_for(const std::vector<std::string>& argume
     if (arguments.size() > 2)
         fail(fmt::format("'{}': expected one subcommand, got {}", kHelpWord,
                          fmt::join(arguments.begin() + 1, arguments.end(), " ")));
-    if (const std::optional<Command> command = command_named(arguments[1]))
-        return command_help(*command, HelpExtent::Usual);
+    if (const std::optional<Command> command = command_named(arguments[1])) return command_help(*command, false);
     fail_command(arguments[1]);
 }
 
@@ -156,8 +155,8 @@ bool is_given(const Found& found, std::string_view name) {
 
 std::optional<std::string> answer_to(Command command, const Found& found) {
     const bool json = is_given(found, "json");
-    if (found.help_all) return command_help(command, HelpExtent::All);
-    if (found.help) return command_help(command, HelpExtent::Usual);
+    if (found.help_all) return command_help(command, true);
+    if (found.help) return command_help(command, false);
     if (found.version) return version_text();
     if (found.list_methods) return method_list(json);
     if (found.list_views) return view_list(json);

@@ -9,7 +9,7 @@
 
 #include <glm/glm.hpp>
 
-#include "core/base/number_text.h"
+#include "core/base/printable.h"
 
 namespace pl {
 

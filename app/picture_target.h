@@ -5,6 +5,8 @@
 
 #include "app/console.h"
 #include "core/io/image.h"
+#include "core/io/json_file.h"
+#include "core/session/session.h"
 #include "core/session/settings.h"
 #include "core/session/snapshot.h"
 
@@ -23,5 +25,11 @@ void require_target(const std::string& output, Console& console);
 /// save_picture(), also to standard output.
 void write_picture(const std::string& output, const Snapshot& snapshot, const DisplaySettings& display,
                    const ImageMetadata& metadata, Console& console);
+
+// The settings and statistics that pictures carry.
+
+/// `stats` are those of stats_json(), `command` repeats the picture in a shell.
+ImageMetadata metadata_of(const Session& session, const Snapshot& snapshot, const Json& stats,
+                          const std::string& command, bool interrupted);
 
 }  // namespace pl

@@ -1,15 +1,13 @@
 // `pathlight render`: a picture without a display.
 #include <fmt/format.h>
 
-#include "app/checkpoint_files.h"
 #include "app/commands.h"
-#include "app/field_files.h"
 #include "app/interrupt.h"
 #include "app/make_backend.h"
 #include "app/open_scene.h"
-#include "app/picture_metadata.h"
 #include "app/picture_target.h"
 #include "app/run_passes.h"
+#include "app/state_files.h"
 #include "app/stats_json.h"
 #include "core/base/error.h"
 #include "core/io/files.h"
@@ -27,14 +25,14 @@ void require_outputs(const Options& options, Console& console) {
 }
 
 /// ", noise 0.0098 (target 0.01)"; empty without a target.
-std::string target_text(const bench::ErrorTarget* target) {
+std::string target_text(const ErrorTarget* target) {
     if (target == nullptr) return "";
     return fmt::format(", noise {} (target {:.3g})",
                        target->measured() ? fmt::format("{:.3g}", *target->measured()) : "unknown", target->target());
 }
 
 /// Throws Error(Threshold) if another limit ended the rendering before the target was met.
-void require_low_error(bench::ErrorTarget* target, const RunOutcome& outcome) {
+void require_low_error(ErrorTarget* target, const RunOutcome& outcome) {
     if (target == nullptr || target->is_low_enough()) return;
     throw Error(
         ErrorKind::Threshold,
@@ -45,7 +43,7 @@ void require_low_error(bench::ErrorTarget* target, const RunOutcome& outcome) {
 }
 
 void report(const Snapshot& snapshot, const Options& options, const Json& stats, bool interrupted,
-            const bench::ErrorTarget* target, const CheckpointFiles& checkpoints, Console& console) {
+            const ErrorTarget* target, const CheckpointFiles& checkpoints, Console& console) {
     const double seconds = snapshot.clocks.total();
     const std::string range = picture_kind(options.output) == ImageKind::Png ? legend(snapshot) : "";
     console.remark(fmt::format("{}: {}x{}, {}, {}, {} spp, {:.2f} s{}{}{}{}\n", options.output, snapshot.width,
@@ -104,9 +102,9 @@ int run_render(const CommandLine& line, Console& console) {
     const std::string command = command_text(Command::Render, options, scene_defaults(options.scene, *loaded.scene));
     const FilmSlot slot = slot_of(options.render);
 
-    std::optional<bench::ErrorTarget> target;
+    std::optional<ErrorTarget> target;
     if (options.target_error) target.emplace(*options.target_error);
-    bench::ErrorTarget* const aim = target ? &*target : nullptr;
+    ErrorTarget* const aim = target ? &*target : nullptr;
     const RunOutcome outcome = run_saved(session, options, interrupt, console, {aim, &checkpoints});
     if (aim != nullptr) aim->measure_last(session, slot);
     const Snapshot snapshot = session.snapshot(slot);

@@ -2,17 +2,16 @@
 #include <fmt/format.h>
 
 #include "app/commands.h"
-#include "app/field_files.h"
 #include "app/interrupt.h"
 #include "app/make_backend.h"
 #include "app/open_scene.h"
-#include "app/picture_metadata.h"
+#include "app/picture_target.h"
 #include "app/run_passes.h"
+#include "app/state_files.h"
 #include "app/stats_json.h"
 #include "core/base/error.h"
 #include "core/io/camera_file.h"
 #include "core/io/files.h"
-#include "core/io/frame_file.h"
 #include "core/io/json_file.h"
 #include "core/io/picture_file.h"
 
@@ -66,9 +65,9 @@ private:
     bool render_frame(int index) {
         const CameraDescription camera = path_.frame(index, frames_);
         session_.apply(EditCamera{camera});
-        std::optional<bench::ErrorTarget> target;
+        std::optional<ErrorTarget> target;
         if (options_.target_error) target.emplace(*options_.target_error);
-        bench::ErrorTarget* const aim = target ? &*target : nullptr;
+        ErrorTarget* const aim = target ? &*target : nullptr;
         const RunOutcome outcome =
             run_passes(session_, options_, interrupt_, console_, Until::Rendered, {.target = aim});
         if (outcome.interrupted()) return false;

@@ -94,7 +94,7 @@ private:
     const Options& options_;
     const InterruptGuard& interrupt_;
     Until until_;
-    bench::ErrorTarget* target_;
+    ErrorTarget* target_;
     CheckpointFiles* checkpoints_;
     Stopwatch watch_;
 };

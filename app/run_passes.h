@@ -1,10 +1,10 @@
 // The loop of every subcommand without a window: passes until a limit is reached or the run is interrupted.
 #pragma once
 
-#include "app/checkpoint_files.h"
 #include "app/console.h"
 #include "app/interrupt.h"
-#include "core/bench/error_target.h"
+#include "app/state_files.h"
+#include "core/measure/error_target.h"
 #include "core/session/session.h"
 
 namespace pl {
@@ -32,7 +32,7 @@ void announce(const Session& session, Console& console);
 
 /// Observers of a run; each may be null.
 struct RunAids {
-    bench::ErrorTarget* target = nullptr;    ///< may end it
+    ErrorTarget* target = nullptr;           ///< may end it
     CheckpointFiles* checkpoints = nullptr;  ///< written along the way
 };
 

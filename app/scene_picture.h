@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "app/options.h"
-#include "core/diagnose/path_record.h"
+#include "core/diagnose/record_path.h"
 #include "core/inspect/guiding_figures.h"
 #include "core/io/image.h"
 #include "core/session/session.h"

@@ -5,7 +5,7 @@
 #include "app/diagnostics_file.h"
 #include "app/make_backend.h"
 #include "app/option_parsers.h"
-#include "core/bench/clocks_json.h"
+#include "core/bench/figures_json.h"
 #include "core/scene/default_light.h"
 #include "core/scene/needed_effects.h"
 #include "core/scene/scene_hash.h"
@@ -26,7 +26,7 @@ Json mean_radiance(const Snapshot& snapshot) {
     return Json::array({sum.x, sum.y, sum.z});
 }
 
-Json target_json(const bench::ErrorTarget* target) {
+Json target_json(const ErrorTarget* target) {
     if (target == nullptr) return nullptr;
     return {{"relmse", target->target()},
             {"measured", target->measured() ? Json(*target->measured()) : Json(nullptr)},
@@ -82,7 +82,7 @@ void add_traffic(Json& stats, const Communicator& ranks) {
 }  // namespace
 
 Json stats_json(const Session& session, const Snapshot& snapshot, const Options& options, const RunOutcome& outcome,
-                const bench::ErrorTarget* target) {
+                const ErrorTarget* target) {
     const RenderSettings& settings = session.settings();
     const BackendInfo backend = session.backend();
     const FeatureSet needed = session.needed_features(snapshot.slot);

@@ -12,6 +12,6 @@ namespace pl {
 
 /// All members of `--stats`, in their order. `target` is null without one.
 Json stats_json(const Session& session, const Snapshot& snapshot, const Options& options, const RunOutcome& outcome,
-                const bench::ErrorTarget* target = nullptr);
+                const ErrorTarget* target = nullptr);
 
 }  // namespace pl

@@ -2,16 +2,15 @@
 // with the whole picture, and where it gains.
 #include "app/commands.h"
 #include "app/diagnostics_file.h"
-#include "app/field_files.h"
-#include "app/gain_file.h"
 #include "app/interrupt.h"
 #include "app/make_backend.h"
+#include "app/noise_report.h"
 #include "app/open_scene.h"
-#include "app/picture_metadata.h"
+#include "app/picture_target.h"
 #include "app/run_passes.h"
 #include "app/scene_picture.h"
+#include "app/state_files.h"
 #include "app/stats_json.h"
-#include "app/trace_noise.h"
 #include "app/trace_report.h"
 #include "core/base/error.h"
 #include "core/diagnose/pixel_paths.h"
@@ -59,7 +58,7 @@ std::vector<diagnose::PathRecord> trace_samples(Session& session, const Options&
 }
 
 /// Before any work is done for them.
-void require_outputs(const Options& options) {
+void require_trace_outputs(const Options& options) {
     if (!options.diagnostics_file.empty()) {
         image_kind(options.diagnostics_file);
         require_writable(options.diagnostics_file);
@@ -94,7 +93,7 @@ int trace_picture(Session& session, const Options& options, const InterruptGuard
 
 int run_trace(const CommandLine& line, Console& console) {
     const InterruptGuard interrupt;
-    require_outputs(line.options);
+    require_trace_outputs(line.options);
     const LoadedScene loaded = open_scene(line.options.scene, line.options.load, console);
     FieldFiles fields(line.options);
     const Options options = resolve_options(line, *loaded.scene, fields.loaded());

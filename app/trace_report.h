@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "core/diagnose/path_record.h"
+#include "core/diagnose/record_path.h"
 #include "core/io/json_file.h"
 #include "core/scene/description.h"
 #include "core/session/settings.h"

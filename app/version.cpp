@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "app/build_info.h"
 #include "cpu/base/lane_names.h"
 
 namespace pl {

@@ -8,11 +8,11 @@
 
 #include <fmt/format.h>
 
-#include "app/field_files.h"
 #include "app/interrupt.h"
 #include "app/make_backend.h"
 #include "app/open_scene.h"
 #include "app/parse_values.h"
+#include "app/state_files.h"
 #include "core/io/files.h"
 #include "core/io/load_scene.h"
 #include "cuda/availability.h"

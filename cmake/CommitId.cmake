@@ -20,7 +20,7 @@ if(NOT commit MATCHES "^[A-Za-z0-9._/+-]+$")
     set(commit unknown)
 endif()
 file(CONFIGURE OUTPUT "${OUTPUT}" @ONLY CONTENT [[
-#include "app/build_info.h"
+#include "app/version.h"
 
 std::string_view pl::commit_id() { return "@commit@"; }
 ]])

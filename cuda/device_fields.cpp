@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "core/base/usable_threads.h"
+#include "core/base/parallel.h"
 #include "core/fields/field_choices.h"
 #include "core/fields/field_kernels.h"
 #include "cpu/learning/neural_update.h"

@@ -2,7 +2,7 @@
 
 #include "ui/model/field_flowers.h"
 #include "ui/model/path_explorer.h"
-#include "ui/model/pinned_volumes.h"
+#include "ui/model/selection.h"
 #include "ui/overlays/scene_shapes.h"
 #include "ui/panels/figure_curves.h"
 #include "ui/window/offscreen.h"

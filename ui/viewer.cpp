@@ -11,14 +11,13 @@
 
 #include "core/base/error.h"
 #include "ui/compare/compare_layer.h"
-#include "ui/compare/pointed_pixel.h"
-#include "ui/draw/magnifier.h"
+#include "ui/compare/compare_plan.h"
+#include "ui/draw/picture_zoom.h"
 #include "ui/draw/style.h"
 #include "ui/input/input_router.h"
-#include "ui/model/remembered_window.h"
+#include "ui/model/window_memory.h"
 #include "ui/script/script_player.h"
 #include "ui/script/ui_trace.h"
-#include "ui/window/draw_interface.h"
 #include "ui/window/frame_pacing.h"
 #include "ui/window/gui.h"
 #include "ui/window/image_layer.h"
@@ -86,7 +85,7 @@ private:
     void build_panels();
     void zoom_to_pixels();
     void point_at_pixel();
-    std::optional<HoveredPixel> hovered_pixel() const;
+    std::optional<PixelPosition> hovered_pixel() const;
     void show();
     void answer_requests();
     WindowMemory memory_now() const;
@@ -157,9 +156,9 @@ RenderSettings Viewer::first_settings(const SceneDescription& scene) const {
         SDL_GetRendererOutputSize(display_.renderer(), &width, &height);
         const Layout layout = make_layout(static_cast<float>(width), static_cast<float>(height),
                                           kFontPixels * display_.ui_scale(), memory_.last().panels, false);
-        const ImageSize size = fit_image(layout.view, settings.width, settings.height);
-        settings.width = size.width;
-        settings.height = size.height;
+        const glm::ivec2 size = fit_image(layout.view, settings.width, settings.height);
+        settings.width = size.x;
+        settings.height = size.y;
     }
     return settings;
 }
@@ -278,12 +277,12 @@ void Viewer::point_at_pixel() {
         magnifier_ = magnifier_at(plan_, *model_.frame(), image_, input_.pointer(), layout_.view, em(1.0f));
 }
 
-std::optional<HoveredPixel> Viewer::hovered_pixel() const {
+std::optional<PixelPosition> Viewer::hovered_pixel() const {
     const auto& pointed = model_.window().pointed;
     if (!pointed || !plan_.at_image) return std::nullopt;
     const Snapshot& snapshot = model_.frame()->snapshot;
     const PixelPosition pixel = pixel_under(image_, input_.pointer(), snapshot.width, snapshot.height);
-    return HoveredPixel{pixel.x, pixel.y};
+    return PixelPosition{pixel.x, pixel.y};
 }
 
 void Viewer::answer_requests() {
@@ -292,8 +291,8 @@ void Viewer::answer_requests() {
     if (std::exchange(requests.reset, false)) reset_window();
     if (std::exchange(requests.fit_size, false)) {
         const RenderSettings settings = model_.render().settings();
-        const ImageSize size = fit_image(layout_.view, settings.width, settings.height);
-        model_.render().set_size(size.width, size.height);
+        const glm::ivec2 size = fit_image(layout_.view, settings.width, settings.height);
+        model_.render().set_size(size.x, size.y);
     }
     if (std::string title = model_.title(); title != title_) {
         title_ = std::move(title);

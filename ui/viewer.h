@@ -94,13 +94,6 @@ struct JobMonitor {
     std::function<void(double share, const std::string& detail)> progress;
 };
 
-/// 8-bit RGB, rows from the top without padding.
-struct ScreenPixels {
-    int width = 0;
-    int height = 0;
-    std::vector<std::uint8_t> rgb;
-};
-
 /// Window and scale of its text as the user asked for them; 0: by the screen.
 struct WindowOptions {
     int width = 0;

@@ -5,15 +5,15 @@
 
 #include <fmt/format.h>
 
-#include "app/build_info.h"
 #include "app/commands.h"
 #include "app/interrupt.h"
 #include "app/make_backend.h"
 #include "app/measure/bench_options.h"
 #include "app/measure/bench_ranks.h"
 #include "app/progress.h"
+#include "app/version.h"
+#include "core/bench/bench_results.h"
 #include "core/bench/effect_costs.h"
-#include "core/bench/gate.h"
 
 namespace pl {
 namespace {
@@ -107,8 +107,8 @@ int run_effects(const CommandLine& line, Console& console) {
     const bench::BenchPlan plan = make_bench_plan(line, console);
     const InterruptGuard interrupt;
     const auto costs = bench::measure_effect_costs(
-        plan, [&](const std::string& name) { return make_own_backend(name, line.options.threads); },
-        {.stop = interrupt.flag(), .on_cost = [&](const bench::EffectCost& cost) { tell_cost(cost, console); }});
+        plan, [&](const std::string& name) { return make_own_backend(name, line.options.threads); }, interrupt.flag(),
+        [&](const bench::EffectCost& cost) { tell_cost(cost, console); });
     if (!costs) {
         console.log().warning("interrupted: nothing was written");
         return kExitInterrupted;

@@ -5,7 +5,7 @@
 
 #include "app/commands.h"
 #include "core/base/error.h"
-#include "core/bench/metrics_json.h"
+#include "core/bench/figures_json.h"
 #include "core/bench/reference_store.h"
 #include "core/io/image.h"
 #include "core/measure/flip.h"

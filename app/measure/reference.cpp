@@ -6,7 +6,7 @@
 #include "app/make_backend.h"
 #include "app/open_scene.h"
 #include "app/progress.h"
-#include "core/bench/make_reference.h"
+#include "core/bench/reference_store.h"
 
 namespace pl {
 

@@ -9,7 +9,6 @@
 #include <type_traits>
 #include <utility>
 
-#include "app/choices.h"
 #include "app/option_parsers.h"
 #include "app/option_table.h"
 #include "app/parse_values.h"

@@ -1,13 +1,25 @@
-// A plot as data, and as SVG.
+// Plots of a bench as data and as SVG, and text as it stands in HTML and SVG.
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "app/canvas.h"
+#include "core/bench/bench_results.h"
 #include "core/plot/log_axis.h"
 
 namespace pl {
+
+// Text escaped for HTML and SVG, and bytes as base64.
+
+/// With & < > and quotes replaced, so that names of files and scenes cannot end an element or an attribute.
+std::string escape_markup(std::string_view text);
+
+/// [RFC 4648, section 4]
+std::string base64(std::string_view bytes);
+
+// A plot as data, and as SVG.
 
 struct PlotPoint {
     double x = 0.0;
@@ -61,5 +73,20 @@ struct PlotLayout {
 Rgb method_color(const std::string& method);
 
 std::string svg_plot(const Plot& plot);
+
+// The plots of a bench: error over time and over samples, scene by scene.
+
+struct NamedPlot {
+    std::string scene;
+    std::string file;  ///< name without suffix: "door-time"
+    Plot plot;
+};
+
+/// Two plots of every scene. Points are geometric means where all runs are measured, bands the 95 % intervals at
+/// equal time or equal samples; no bands below kFewestRuns runs.
+std::vector<NamedPlot> convergence_plots(const bench::BenchResults& results);
+
+/// Names of the scenes of a bench in the order of its plan.
+std::vector<std::string> scene_order(const Json& plan);
 
 }  // namespace pl

@@ -3,7 +3,6 @@
 
 #include "app/commands.h"
 #include "app/report/page.h"
-#include "app/report/picture_data.h"
 #include "core/io/files.h"
 
 namespace pl {

@@ -58,10 +58,11 @@ Log::Log() : terminal_(can_redraw()), color_(terminal_ && !is_set("NO_COLOR")) {
 Log::~Log() { clear_status(); }
 
 void Log::open_file(const std::filesystem::path& path) {
-    file_.reset(std::fopen(path.c_str(), "a"));
-    if (!file_)
+    std::FILE* const file = std::fopen(path.c_str(), "a");
+    if (file == nullptr)
         throw Error(ErrorKind::Runtime,
                     fmt::format("{}: cannot write the log: {}", path.string(), std::strerror(errno)));
+    file_.reset(file, std::fclose);
 }
 
 void Log::show_status(std::string_view line) {

@@ -40,10 +40,6 @@ public:
     int terminal_width() const;
 
 private:
-    struct CloseFile {
-        void operator()(std::FILE* file) const { std::fclose(file); }
-    };
-
     void write(LogLevel level, std::string_view message);
     void write_to_file(LogLevel level, std::string_view message);
     void erase_status();
@@ -53,7 +49,7 @@ private:
     bool terminal_ = false;
     bool color_ = false;
     bool status_shown_ = false;
-    std::unique_ptr<std::FILE, CloseFile> file_;
+    std::shared_ptr<std::FILE> file_;
 };
 
 }  // namespace pl

@@ -1,6 +1,7 @@
 #include "core/base/printable.h"
 
 #include <algorithm>
+#include <charconv>
 
 namespace pl {
 namespace {
@@ -58,5 +59,20 @@ std::string printable(std::string_view text) {
     }
     return result;
 }
+
+namespace {
+
+template <class T>
+std::string print(T value) {
+    char buffer[64];
+    const auto [end, error] = std::to_chars(buffer, buffer + sizeof buffer, value);
+    return error == std::errc{} ? std::string(buffer, end) : std::string();
+}
+
+}  // namespace
+
+std::string print_real(double value) { return print(value); }
+
+std::string print_float(float value) { return print(value); }
 
 }  // namespace pl

@@ -10,4 +10,9 @@ namespace pl {
 /// ASCII included, and of bytes that are no UTF-8.
 std::string printable(std::string_view text);
 
+// Numbers as the shortest text that reads back as the same bits, whatever the locale.
+
+std::string print_real(double value);
+std::string print_float(float value);
+
 }  // namespace pl

@@ -1,8 +1,8 @@
 // The exports of a bench: results.json with all figures, tables in CSV and Markdown.
 #pragma once
 
-#include "core/bench/bench_folder.h"
-#include "core/bench/bench_summary.h"
+#include "core/bench/bench_plan.h"
+#include "core/bench/bench_run.h"
 
 namespace pl::bench {
 
@@ -29,5 +29,21 @@ Json interval_json(const Interval& interval);
 std::string interval_text(const Interval& interval, std::size_t runs);
 /// The methods of a plan, in its order.
 std::vector<std::string> method_order(const Json& plan);
+
+// Comparison of a bench with an earlier one: fails if it is slower by more than the noise.
+
+struct GateRow {
+    BenchCell cell;
+    Interval slowdown;  ///< seconds to the same error, new over old
+    bool failed = false;
+};
+
+/// Cells that both benches have. A row fails only if its whole interval lies above 1 + tolerance, and both sides have
+/// kFewestRuns runs. Throws Error(Input) if a scene's picture differs between them, or if they have no cell in
+/// common.
+std::vector<GateRow> gate_rows(const BenchResults& earlier, const BenchResults& now, double tolerance_percent);
+
+/// One line per row. Throws Error(Threshold) if a row has failed.
+std::string require_gate(const std::vector<GateRow>& rows, double tolerance_percent);
 
 }  // namespace pl::bench

@@ -33,8 +33,9 @@ struct Candidate {
 
 class EffectCosts {
 public:
-    EffectCosts(const BenchPlan& plan, const BackendFactory& make, const EffectCostObserver& observer)
-        : plan_(plan), make_(make), observer_(observer) {}
+    EffectCosts(const BenchPlan& plan, const BackendFactory& make, const StopFlag* stop,
+                const std::function<void(const EffectCost&)>& on_cost)
+        : plan_(plan), make_(make), stop_(stop), on_cost_(on_cost) {}
 
     /// False if stopped.
     bool measure() {
@@ -52,7 +53,7 @@ private:
         for (Candidate& candidate : candidates) candidate.turn();  // warm-up, placement, precomputation
         for (int round = 0; round < plan_.seeds; ++round)
             for (std::size_t i = 0; i < candidates.size(); ++i) {
-                if (observer_.stop != nullptr && *observer_.stop) return false;
+                if (stop_ != nullptr && *stop_) return false;
                 // Each round begins with another candidate.
                 Candidate& candidate = candidates[(i + static_cast<std::size_t>(round)) % candidates.size()];
                 candidate.seconds.push_back(candidate.turn());
@@ -97,12 +98,13 @@ private:
                           .is_needed = &candidate == &needed,
                           .ratio = geometric_interval(ratios),
                           .nanoseconds = 1e9 * fastest / segments_per_turn});
-        if (observer_.on_cost) observer_.on_cost(costs_.back());
+        on_cost_(costs_.back());
     }
 
     const BenchPlan& plan_;
     const BackendFactory& make_;
-    const EffectCostObserver& observer_;
+    const StopFlag* stop_;
+    const std::function<void(const EffectCost&)>& on_cost_;
     std::vector<EffectCost> costs_;
 };
 
@@ -135,8 +137,9 @@ std::string EffectCost::effects_text() const {
 }
 
 std::optional<std::vector<EffectCost>> measure_effect_costs(const BenchPlan& plan, const BackendFactory& make,
-                                                            const EffectCostObserver& observer) {
-    EffectCosts costs(plan, make, observer);
+                                                            const StopFlag* stop,
+                                                            const std::function<void(const EffectCost&)>& on_cost) {
+    EffectCosts costs(plan, make, stop, on_cost);
     if (!costs.measure()) return std::nullopt;
     return costs.take();
 }

@@ -23,18 +23,13 @@ struct EffectCost {
     std::string effects_text() const;
 };
 
-/// Watches a measurement; both members may be empty.
-struct EffectCostObserver {
-    const StopFlag* stop = nullptr;
-    std::function<void(const EffectCost&)> on_cost{};
-};
-
 /// Measures, for every scene, back end and method of a plan, the kernel with the needed effects against every larger
 /// one that covers them. All do the same work to the bit, in turns, so that slow changes of the machine affect all
-/// alike; BenchPlan::seeds is the number of rounds. Each kernel gets a back end of its own from `make`. Empty if
-/// stopped.
+/// alike; BenchPlan::seeds is the number of rounds. Each kernel gets a back end of its own from `make`. Calls `on_cost` with each.
+/// Empty if `stop` was raised.
 std::optional<std::vector<EffectCost>> measure_effect_costs(const BenchPlan& plan, const BackendFactory& make,
-                                                            const EffectCostObserver& observer);
+                                                            const StopFlag* stop,
+                                                            const std::function<void(const EffectCost&)>& on_cost);
 
 /// Writes effects.json (schema "pathlight.effects/1") and effects.md.
 void write_effect_costs(const std::filesystem::path& folder, const std::vector<EffectCost>& costs);

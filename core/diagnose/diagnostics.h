@@ -1,18 +1,23 @@
-// Diagnostics: defects of paths and of the learned field by kind, their counts in a picture, and their map over its
-// pixels. A pass pays for them one comparison for each training sample, whether it is clamped; it keeps the other
-// counts in any case.
+// Defects of a picture: found by tracing its paths again, and marked.
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "core/session/session.h"
 #include "core/session/snapshot.h"
 
 namespace pl::diagnose {
+
+// Diagnostics: defects of paths and of the learned field by kind, their counts in a picture, and their map over its
+// pixels. A pass pays for them one comparison for each training sample, whether it is clamped; it keeps the other
+// counts in any case.
 
 enum class DiagnosticKind : std::uint32_t {
     InvalidSample,  ///< NaN, infinite or negative: left out of the film
@@ -62,5 +67,40 @@ struct DiagnosticsMap {
 
 /// "12 invalid in 7 pixels, 3 escaped in 3 pixels", for display.
 std::string summary_of(const DiagnosticsMap& map);
+
+// Locating the diagnostics of a picture: the pixels of the samples, paths and lookups that its passes counted.
+
+/// The passes to search, and their counts.
+struct DiagnosticsInput {
+    PassReplay passes;
+    DiagnosticCounts counted{};
+};
+
+/// Of the session's current picture. Throws Error(Usage) if its view shows no paths.
+DiagnosticsInput diagnostics_input(const Session& session, FilmSlot slot);
+
+/// Invalid samples come from the film; for the other kinds the passes are traced again, newest first, by
+/// replay_path(). Ends when every counted occurrence is located (clamped training samples: after 16 samples per
+/// pixel, since the field has changed too much before those), when all passes are traced, or when `stop` is raised.
+/// Calls `told` with the share of passes traced. `threads` 0: all.
+DiagnosticsMap find_diagnostics(DiagnosticsInput source, int threads, const StopFlag* stop = nullptr,
+                                const std::function<void(double share)>& told = {});
+
+// Marks of diagnostics in a picture: a picture and a map in, a marked picture out.
+
+/// Pixels of a picture in place: rows of ARGB, `pitch` pixels apart.
+struct PixelRows {
+    std::uint32_t* argb = nullptr;
+    std::size_t pitch = 0;
+
+    std::uint32_t& at(int x, int y) const {
+        return argb[static_cast<std::size_t>(y) * pitch + static_cast<std::size_t>(x)];
+    }
+};
+
+/// Darkens the picture to a quarter and colors the pixels of the map that have occurrences; isolated ones get a ring,
+/// visible from a distance. Of several kinds at a pixel the first one of all_diagnostics() is shown. The picture has
+/// the map's size.
+void mark_diagnostics(const DiagnosticsMap& map, PixelRows picture);
 
 }  // namespace pl::diagnose

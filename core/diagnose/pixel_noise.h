@@ -1,10 +1,121 @@
-// "Why this pixel?": the noise of a pixel by technique and bounce, and the gain of guidance there, by paths of both methods in turns.
+// The noise of a pixel by technique and bounces.
 #pragma once
 
-#include "core/diagnose/noise_sums.h"
+#include <array>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "core/base/choice.h"
 #include "core/diagnose/pixel_paths.h"
+#include "core/diagnose/record_path.h"
+#include "core/measure/gain.h"
+#include "core/measure/statistics.h"
 
 namespace pl::diagnose {
+
+// The parts of a path's radiance: the technique that found each, its bounces, and its light.
+
+/// The technique that found the light of a contribution.
+enum class FoundBy : std::uint32_t {
+    Camera,         ///< the camera ray met it
+    LightSampling,  ///< a light sample
+    Bsdf,           ///< a direction sampled by the BSDF without its delta lobes
+    Field,          ///< a direction sampled by the guiding field
+    Delta,          ///< a direction of a delta lobe
+};
+inline constexpr std::size_t kFoundByCount = 5;
+
+}  // namespace pl::diagnose
+
+namespace pl {
+
+template <>
+inline constexpr auto kChoices<diagnose::FoundBy> = std::to_array<ChoiceInfo<diagnose::FoundBy>>({
+    {diagnose::FoundBy::Camera, "seen", "seen directly"},
+    {diagnose::FoundBy::LightSampling, "light", "light samples"},
+    {diagnose::FoundBy::Bsdf, "bsdf", "BSDF sampling"},
+    {diagnose::FoundBy::Field, "field", "guided sampling"},
+    {diagnose::FoundBy::Delta, "delta", "delta lobes"},
+});
+
+}  // namespace pl
+
+namespace pl::diagnose {
+
+struct Contribution {
+    FoundBy found_by = FoundBy::Camera;
+    std::uint32_t bounces = 0;  ///< scattering events between the light and the camera: 0 if it is seen directly
+    bool is_distant = false;    ///< of the environment or a sun, not of a surface
+    double light = 0.0;         ///< luminance brought to the pixel
+};
+
+/// All that are not black. Their sum is the luminance of PathRecord::radiance, but for rounding.
+std::vector<Contribution> contributions_of(const PathRecord& path);
+
+// The variance of a pixel's estimate, divided among techniques, bounces and lights.
+
+/// Bounces are told apart up to one less; the last class has all others.
+inline constexpr std::size_t kBounceClasses = 9;
+
+/// Shares of the variance of one path's luminance T. That of a part C, the sum of the contributions of one kind, is Cov(C, T) / Var(T):
+/// its own variance, and half of its covariances with each of the other parts. The shares of each array sum to 1; one is negative
+/// if its part makes up for others.
+struct NoiseShares {
+    std::array<Interval, kFoundByCount> found_by{};
+    std::array<Interval, kBounceClasses> bounces{};
+    std::array<Interval, 2> lights{};  ///< of surfaces, of environment and sun
+};
+
+/// Of one method at one pixel. Luminances.
+struct PixelEstimate {
+    std::uint64_t paths = 0;
+    Interval mean{};
+    Interval variance{};                  ///< of one path
+    double seconds_per_path = 0.0;        ///< processor time
+    std::optional<NoiseShares> shares{};  ///< none without variance
+};
+
+/// Sums over paths, dealt to groups in turn.
+class NoiseSums {
+public:
+    /// `group` below kJackknifeGroups.
+    void add(std::size_t group, std::span<const Contribution> path);
+    void add_seconds(std::size_t group, double seconds) { groups_[group].seconds += seconds; }
+
+    /// Whether every group has a path, before which there are no estimates.
+    bool has_all_groups() const;
+    PixelEstimate estimate() const;
+
+    double mean(GroupSet set) const;
+    double variance(GroupSet set) const;
+    double seconds_per_path(GroupSet set) const;
+
+private:
+    static constexpr std::size_t kClasses = kFoundByCount + kBounceClasses + 2;
+
+    struct Sums {
+        double paths = 0.0;
+        double total = 0.0;
+        double square = 0.0;
+        double seconds = 0.0;
+        std::array<double, kClasses> parts{};     ///< C
+        std::array<double, kClasses> products{};  ///< C T
+
+        Sums& operator+=(const Sums& other);
+    };
+    Sums sum(GroupSet set) const;
+    Interval share(std::size_t part) const;
+
+    std::array<Sums, kJackknifeGroups> groups_{};
+};
+
+/// Gain of a method at this pixel, path by path: variances and processor time of its paths against those of the baseline. The jackknife
+/// leaves out the same groups of both. Empty if one of the two has no variance.
+std::optional<Gain> pixel_gain(const NoiseSums& base, const NoiseSums& method);
+
+// "Why this pixel?": the noise of a pixel by technique and bounce, and the gain of guidance there, by paths of both methods in turns.
 
 struct PixelNoise {
     std::uint32_t pixel = 0;  ///< row-major

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/diagnose/path_record.h"
+#include "core/diagnose/record_path.h"
 #include "core/session/session.h"
 
 namespace pl::diagnose {

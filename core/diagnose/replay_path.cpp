@@ -1,6 +1,5 @@
 #include "core/diagnose/replay_path.h"
 
-#include "core/diagnose/replayed_method.h"
 #include "core/kernel/geometry/intersector.h"
 #include "core/kernel/integrator/sampled_lights.h"
 #include "core/kernel/integrator/trace_path.h"

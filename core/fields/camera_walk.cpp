@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <span>
 
-#include "core/base/parallel_chunks.h"
+#include "core/base/parallel.h"
 #include "core/fields/extent.h"
 #include "core/fields/walk.h"
 #include "core/kernel/base/rng.h"

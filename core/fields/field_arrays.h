@@ -9,7 +9,7 @@
 #include <type_traits>
 #include <variant>
 
-#include "core/base/large_array.h"
+#include "core/base/host_array.h"
 #include "core/fields/field_shape.h"
 #include "core/kernel/guiding/mixture.h"
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/base/parallel_chunks.h"
+#include "core/base/parallel.h"
 #include "core/fields/surfaces.h"
 #include "core/fields/walk.h"
 #include "core/kernel/base/rng.h"

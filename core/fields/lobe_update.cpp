@@ -2,7 +2,7 @@
 // 2020.
 #include "core/fields/lobe_model.h"
 
-#include "core/base/parallel_chunks.h"
+#include "core/base/parallel.h"
 #include "core/fields/mixture_fit.h"
 #include "core/fields/volume_irradiance_update.h"
 

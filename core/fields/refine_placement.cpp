@@ -6,8 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "core/base/parallel_chunks.h"
-#include "core/base/work_queue.h"
+#include "core/base/parallel.h"
 
 namespace pl {
 namespace {

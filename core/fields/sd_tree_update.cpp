@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "core/base/parallel_chunks.h"
+#include "core/base/parallel.h"
 #include "core/fields/volume_irradiance_update.h"
 
 namespace pl {

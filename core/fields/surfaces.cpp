@@ -4,7 +4,7 @@
 #include <numeric>
 #include <utility>
 
-#include "core/base/parallel_chunks.h"
+#include "core/base/parallel.h"
 #include "core/kernel/shading/blends.h"
 #include "core/scene/position_numbers.h"
 #include "core/scene/triangle_planes.h"

@@ -5,7 +5,7 @@
 #include <span>
 #include <utility>
 
-#include "core/base/work_queue.h"
+#include "core/base/parallel.h"
 #include "core/fields/grid_pieces.h"
 #include "core/fields/nearest_sets.h"
 #include "core/fields/normal_trees.h"

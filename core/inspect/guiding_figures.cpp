@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "core/measure/jackknife.h"
+#include "core/measure/statistics.h"
 #include "core/session/path_settings.h"
 
 namespace pl {

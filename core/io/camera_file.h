@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "core/io/json_document.h"
@@ -59,5 +60,18 @@ Json named_camera_json(const NamedCamera& camera);
 
 /// Writes a file for load_cameras(), which reads the same bits. Throws Error(Runtime).
 void save_cameras(const std::filesystem::path& path, std::span<const CameraDescription> cameras);
+
+// The cameras that a file lists, and the choice among them.
+
+/// Value of the setting `size` for pictures of this width over height.
+std::string size_of_aspect(float aspect);
+
+/// The first listed camera; without any that of frame_camera(). Expects SceneDescription::up and a triangle.
+void set_default_camera(SceneDescription& scene);
+
+/// Sets the camera that is asked for by name or number; if nothing is asked, the camera stays. The shape of the picture of a listed
+/// camera becomes the setting `size`, unless the scene has one.
+/// Throws Error(Usage) if there is no such camera.
+void choose_camera(const std::string& asked, SceneDescription& scene);
 
 }  // namespace pl

@@ -4,8 +4,7 @@
 #include <optional>
 #include <type_traits>
 
-#include "core/io/field_checks.h"
-#include "core/io/field_layout.h"
+#include "core/io/field_file.h"
 #include "core/io/files.h"
 #include "core/io/sealed_file.h"
 

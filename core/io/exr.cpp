@@ -27,14 +27,13 @@
 #include "core/base/error.h"
 #include "core/io/exr_layers.h"
 #include "core/io/files.h"
-#include "core/io/image_checks.h"
 #include "core/io/primaries.h"
 
 namespace pl {
 namespace {
 
 constexpr int kThreads = 0;
-constexpr std::array<const char*, 3> kColors = {"R", "G", "B"};
+constexpr std::array<const char*, 3> kColorChannels = {"R", "G", "B"};
 
 /// As many pixels as are read at once, but at least a row: memory grows with what the file has, whatever size its
 /// header says.
@@ -67,7 +66,7 @@ std::string encode(const Imf::Header& header, const LinearImage& image, Imf::Pix
         for (int c = 0; c < 3; ++c) numbers.push_back(convert(pixel[c]));
     Imf::FrameBuffer buffer;
     for (std::size_t c = 0; c < 3; ++c)
-        buffer.insert(kColors[c],
+        buffer.insert(kColorChannels[c],
                       Imf::Slice::Make(type, numbers.data() + c, header.dataWindow(), 3 * sizeof(Number)));
     Imf::StdOSStream stream;
     {
@@ -252,7 +251,7 @@ std::string encode_exr(const LinearImage& image, const ImageMetadata& metadata, 
     try {
         Imf::Header header(image.width, image.height);
         header.compression() = Imf::ZIP_COMPRESSION;
-        for (const char* name : kColors)
+        for (const char* name : kColorChannels)
             header.channels().insert(name, Imf::Channel(is_half ? Imf::HALF : Imf::FLOAT));
         for (const auto& [name, value] : metadata) header.insert(name, Imf::StringAttribute(value));
         return is_half ? encode<half>(header, image, Imf::HALF, to_half)

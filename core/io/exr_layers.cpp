@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "core/io/image_checks.h"
+#include "core/io/image.h"
 #include "core/io/line_reader.h"
 
 namespace pl {

@@ -9,7 +9,6 @@
 
 #include <fmt/format.h>
 
-#include "core/io/image_checks.h"
 #include "core/io/line_reader.h"
 #include "core/io/primaries.h"
 
@@ -18,15 +17,11 @@ namespace {
 
 using Rgbe = std::array<std::uint8_t, 4>;
 
-struct HdrOrientation {
+struct HdrLayout {
+    int width = 0, height = 0;
     bool has_columns = false;     ///< scanlines are columns
     bool is_mirrored = false;     ///< from the right to the left
     bool is_upside_down = false;  ///< from the bottom to the top
-};
-
-struct HdrLayout {
-    int width = 0, height = 0;
-    HdrOrientation orientation;
 };
 
 /// Removes and returns the first line, without its end.
@@ -45,7 +40,7 @@ public:
     LinearImage run() {
         read_header();
         const HdrLayout layout = read_layout();
-        const bool columns = layout.orientation.has_columns;
+        const bool columns = layout.has_columns;
         const int lines = columns ? layout.width : layout.height;
         std::vector<Rgbe> line(static_cast<std::size_t>(columns ? layout.height : layout.width));
         std::vector<Rgbe> texels;  // grows with what the file has, whatever size its header says
@@ -115,8 +110,9 @@ private:
         settings_.require_size(settings_.path, *width, *height);
         return {.width = static_cast<int>(*width),
                 .height = static_cast<int>(*height),
-                .orientation = {
-                    .has_columns = y == 2, .is_mirrored = words[x][0] == '-', .is_upside_down = words[y][0] == '+'}};
+                .has_columns = y == 2,
+                .is_mirrored = words[x][0] == '-',
+                .is_upside_down = words[y][0] == '+'};
     }
 
     std::uint8_t take_byte() {
@@ -182,14 +178,13 @@ private:
     static LinearImage place(const std::vector<Rgbe>& texels, const HdrLayout& layout) {
         const auto width = static_cast<std::size_t>(layout.width);
         const auto height = static_cast<std::size_t>(layout.height);
-        const HdrOrientation& orientation = layout.orientation;
         LinearImage image{.width = layout.width, .height = layout.height, .pixels = {}};
         image.pixels.reserve(texels.size());
         for (std::size_t row = 0; row < height; ++row) {
-            const std::size_t y = orientation.is_upside_down ? height - 1 - row : row;
+            const std::size_t y = layout.is_upside_down ? height - 1 - row : row;
             for (std::size_t column = 0; column < width; ++column) {
-                const std::size_t x = orientation.is_mirrored ? width - 1 - column : column;
-                image.pixels.push_back(linear(texels[orientation.has_columns ? x * height + y : y * width + x]));
+                const std::size_t x = layout.is_mirrored ? width - 1 - column : column;
+                image.pixels.push_back(linear(texels[layout.has_columns ? x * height + y : y * width + x]));
             }
         }
         return image;

@@ -12,7 +12,7 @@
 
 #include <glm/glm.hpp>
 
-#include "core/io/json.h"
+#include "core/io/json_file.h"
 
 namespace pl {
 

@@ -5,9 +5,22 @@
 #include <string>
 #include <string_view>
 
+#include <nlohmann/json.hpp>
+
 #include "core/base/error.h"
-#include "core/io/json.h"
 #include "core/kernel/base/math.h"
+
+namespace pl {
+
+// The one type of JSON values. Its members are compiled in json_file.cpp alone: every file that uses them would else take seconds for
+// them.
+
+/// Members stay in the order in which they were written.
+using Json = nlohmann::ordered_json;
+
+}  // namespace pl
+
+extern template class nlohmann::basic_json<nlohmann::ordered_map>;
 
 namespace pl {
 

@@ -14,6 +14,13 @@
 
 namespace pl {
 
+// Triangles of one description behind those of another.
+
+/// Moves the direct triangles of `added`, with their positions, colors, normals and texture coordinates, and its warnings, behind those
+/// of the scene. `added` has no meshes; its materials are those of the scene. Vertices of a part without colors become white if the
+/// other one has some.
+void append_triangles(SceneDescription added, SceneDescription& scene);
+
 /// Most triangles and vertices that a glTF or Mitsuba file makes the program store: those of meshes and of copies.
 inline constexpr std::uint64_t kMostStoredTriangles = std::uint64_t{1} << 26;
 inline constexpr std::uint64_t kMostStoredVertices = std::uint64_t{1} << 27;
@@ -63,5 +70,12 @@ private:
     std::map<std::uint32_t, Use> uses_;     ///< by the number of the mesh
     SceneDescription stored_;
 };
+
+// Meshes whose materials emit by a choice that was made after their file was read.
+
+/// Replaces the instances of meshes with a material that emits by copies, behind the direct triangles and in the order of the instances:
+/// lights are in the scene directly. Other meshes stay. Expects valid indices.
+/// Throws Error(Input) if the scene would have more than kMostStoredTriangles.
+void copy_emitting_meshes(SceneDescription& scene);
 
 }  // namespace pl

@@ -1,18 +1,17 @@
 #include "core/io/load_scene.h"
 
-#include <sys/auxv.h>
-
 #include <algorithm>
 #include <cstdlib>
 #include <system_error>
 
 #include <fmt/format.h>
+#include <sys/auxv.h>
 
 #include "core/base/error.h"
-#include "core/io/emitting_meshes.h"
+#include "core/io/camera_file.h"
 #include "core/io/files.h"
-#include "core/io/listed_cameras.h"
-#include "core/io/mesh_file.h"
+#include "core/io/gltf/gltf.h"
+#include "core/io/kept_meshes.h"
 #include "core/io/mitsuba/mitsuba.h"
 #include "core/io/nearest_name.h"
 #include "core/io/scene_json.h"
@@ -25,6 +24,23 @@
 #include "core/scene/validate.h"
 
 namespace pl {
+namespace {
+
+bool is_gltf_suffix(std::string_view suffix) { return suffix == ".gltf" || suffix == ".glb"; }
+
+}  // namespace
+
+bool is_gltf(const std::filesystem::path& path) { return is_gltf_suffix(suffix_of(path)); }
+
+bool is_scene_suffix(std::string_view suffix) {
+    return suffix == ".obj" || suffix == ".json" || suffix == ".xml" || is_gltf_suffix(suffix);
+}
+
+SceneDescription load_mesh(const std::filesystem::path& path, MeshGroups* groups, const LoadSettings& asked,
+                           MapKd map_kd, ObjNormals normals) {
+    return is_gltf(path) ? load_gltf(path, groups, asked.most_copied_triangles)
+                         : load_obj(path, groups, map_kd, normals);
+}
 
 namespace fs = std::filesystem;
 

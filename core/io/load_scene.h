@@ -3,12 +3,25 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/io/load_settings.h"
+#include "core/io/obj.h"
 #include "core/scene/description.h"
 
 namespace pl {
+
+// Files that hold the surfaces of a scene, by their suffixes.
+
+bool is_gltf(const std::filesystem::path& path);
+
+/// Whether load_scene() opens files of a suffix: lower case, with its dot.
+bool is_scene_suffix(std::string_view suffix);
+
+/// load_gltf() or load_obj(), by the suffix. `map_kd` and `normals` are of OBJ files.
+SceneDescription load_mesh(const std::filesystem::path& path, MeshGroups* groups, const LoadSettings& asked,
+                           MapKd map_kd = MapKd::Multiplies, ObjNormals normals = ObjNormals::Any);
 
 /// Opens an .obj file, a scene .json file, or a scene of assets_dir/scenes by its name; the result passes
 /// validate_scene(). A scene NAME is the file scenes/NAME/NAME.json. An .obj alone gets the camera of frame_camera();

@@ -1,6 +1,8 @@
 // Choices with which a scene is opened.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -8,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/choice.h"
 #include "core/scene/description.h"
 #include "core/scene/up_axis.h"
 
@@ -28,5 +31,34 @@ struct LoadSettings {
     /// are copied; else they are kept once, see KeptMeshes.
     std::uint64_t most_copied_triangles = kMostCopiedTriangles;
 };
+
+// Notes about parts of a file that the program does not show, or shows otherwise.
+
+/// Each kind is told once, with its first place and how often it occurs.
+class SceneNotes {
+public:
+    /// `kind` is a sentence about the content.
+    void add(const std::string& kind, const std::string& place);
+    /// Appends "place: kind (3 in all)", in the order of first places.
+    void tell(std::vector<std::string>& warnings) const;
+
+private:
+    struct Note {
+        std::string kind;
+        std::string first;
+        std::size_t count = 0;
+    };
+    std::vector<Note> notes_;
+};
+
+// The two readings of MTL materials with both a color and an image.
+
+enum class MapKd { Multiplies, Replaces };
+
+template <>
+inline constexpr auto kChoices<MapKd> = std::to_array<ChoiceInfo<MapKd>>({
+    {MapKd::Multiplies, "multiply", "Multiply", "map_Kd times Kd, by the text of the format"},
+    {MapKd::Replaces, "replace", "Replace", "map_Kd alone, as Blender reads it"},
+});
 
 }  // namespace pl

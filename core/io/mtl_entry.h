@@ -1,8 +1,10 @@
-// One material of an MTL file as written, before its interpretation by mtl_surface.h.
+// One material of an MTL file as written, before its interpretation by mtl.h.
 #pragma once
 
 #include <optional>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include <glm/glm.hpp>
 
@@ -46,5 +48,15 @@ struct MtlEntry {
     std::optional<SurfaceKind> surface;       ///< Pl_surface
     std::optional<float> roughness, own_ior;  ///< Pl_roughness, Pl_ior
 };
+
+// Arguments of `map_Kd` and other map statements: options, then the name of an image.
+
+struct ParsedMap {
+    MtlMap map;                            ///< empty if there is no name
+    std::vector<std::string> unsupported;  ///< options with values that would change the picture
+};
+
+/// The name is the rest after the options, with blanks or in quotes.
+ParsedMap parse_map(std::string_view arguments);
 
 }  // namespace pl

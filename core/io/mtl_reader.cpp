@@ -10,8 +10,8 @@
 #include <fmt/ranges.h>
 
 #include "core/io/line_reader.h"
-#include "core/io/mtl_map.h"
-#include "core/io/mtl_surface.h"
+#include "core/io/mtl.h"
+#include "core/io/mtl_entry.h"
 #include "core/io/obj_names.h"
 #include "core/io/tally.h"
 #include "core/scene/description.h"
@@ -40,10 +40,13 @@ constexpr std::array<NumberKey, 9> kNumbers = {{
     {"pl_ior", &MtlEntry::own_ior, kLeastIor, kMostIor},
 }};
 
-struct ColorKey {
+/// A statement and the member of MtlEntry that its value is kept in.
+template <class Value>
+struct EntryKey {
     std::string_view name;
-    std::optional<glm::vec3> MtlEntry::*color;
+    Value MtlEntry::*member;
 };
+using ColorKey = EntryKey<std::optional<glm::vec3>>;
 constexpr std::array<ColorKey, 4> kColors = {{
     {"kd", &MtlEntry::kd},
     {"ke", &MtlEntry::ke},
@@ -51,10 +54,7 @@ constexpr std::array<ColorKey, 4> kColors = {{
     {"tf", &MtlEntry::tf},
 }};
 
-struct MapKey {
-    std::string_view name;
-    MtlMap MtlEntry::*map;
-};
+using MapKey = EntryKey<MtlMap>;
 constexpr std::array<MapKey, 8> kMaps = {{
     {"map_kd", &MtlEntry::map_kd},
     {"map_ke", &MtlEntry::map_ke},
@@ -173,11 +173,11 @@ private:
 
     void value(const std::string& key) {
         if (const ColorKey* const rgb = find_key(kColors, key)) {
-            color(entry().*rgb->color, key != "ke");
+            color(entry().*rgb->member, key != "ke");
         } else if (const NumberKey* const scalar = find_key(kNumbers, key)) {
             number(entry().*scalar->number, scalar->least, scalar->most);
         } else if (const MapKey* const image = find_key(kMaps, key)) {
-            map(entry().*image->map);
+            map(entry().*image->member);
         } else if (key == "illum") {
             std::optional<float> illum;
             number(illum, 0.0f, 10.0f);

@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/io/line_reader.h"
-#include "core/io/triangle_area.h"
+#include "core/io/triangulate.h"
 
 namespace pl {
 

@@ -4,17 +4,36 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
-#include "core/io/name_index.h"
 #include "core/io/obj_elements.h"
 #include "core/io/obj_mesh.h"
 #include "core/io/tally.h"
 
 namespace pl {
+
+// The number of a name in a list of different ones.
+
+/// The number of a name in a list, to which it is added if it is new.
+class NameIndex {
+public:
+    /// Calls add() for a new name.
+    template <class Add>
+    std::uint32_t find_or(const std::string& name, Add&& add) {
+        const auto [entry, is_new] = index_.try_emplace(name, static_cast<std::uint32_t>(index_.size()));
+        if (is_new) {
+            add();
+        }
+        return entry->second;
+    }
+
+private:
+    std::map<std::string, std::uint32_t> index_;
+};
 
 /// Faces and statements that cannot be used as they are.
 struct ObjFaceTallies {

@@ -7,7 +7,7 @@
 #include <fmt/ranges.h>
 
 #include "core/base/error.h"
-#include "core/base/parallel_chunks.h"
+#include "core/base/parallel.h"
 #include "core/io/line_reader.h"
 #include "core/io/obj_elements.h"
 #include "core/io/obj_face_reader.h"

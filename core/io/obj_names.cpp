@@ -74,7 +74,7 @@ std::vector<std::string> library_names(std::string_view arguments) {
     return names;
 }
 
-NamedFile find_named_file(const fs::path& root, const fs::path& from, std::string_view name, NamedKind kind) {
+NamedFile find_named_file(const fs::path& root, const fs::path& from, std::string_view name, bool is_image) {
     std::string slashes(name);
     std::replace(slashes.begin(), slashes.end(), '\\', '/');
     const bool has_drive = slashes.size() > 1 && slashes[1] == ':';
@@ -82,7 +82,7 @@ NamedFile find_named_file(const fs::path& root, const fs::path& from, std::strin
     const fs::path direct = (from / named).lexically_normal();
     const bool is_inside = !has_drive && stays_inside(root, direct);
     if (is_inside && has_file(root, direct)) return {root / direct};
-    const fs::path beside = has_drive || kind != NamedKind::Image ? fs::path() : below_parent(direct);
+    const fs::path beside = has_drive || !is_image ? fs::path() : below_parent(direct);
     if (!beside.empty() && has_file(root / "..", beside)) return {root / ".." / beside};
     const std::vector<fs::path> parts = parts_of(named);
     for (auto first = parts.begin(); first != parts.end(); ++first) {

@@ -24,12 +24,10 @@ struct NamedFile {
     bool is_elsewhere = false;  ///< it is, or would have to be, in another place than the named one
 };
 
-enum class NamedKind { Text, Image };
-
 /// The file of a name, with slashes of either kind, in a text in the folder `root / from`. Nothing but `root` and below is looked at, and
 /// for images, which programs write into a folder beside that of the OBJ file, the folder above: of a name that is absolute, leads
 /// elsewhere, or has no file, the longest end that has one in `from` or `root` counts.
 NamedFile find_named_file(const std::filesystem::path& root, const std::filesystem::path& from, std::string_view name,
-                          NamedKind kind = NamedKind::Text);
+                          bool is_image = false);
 
 }  // namespace pl

@@ -11,7 +11,6 @@
 #include <fmt/format.h>
 
 #include "core/io/files.h"
-#include "core/io/image_checks.h"
 #include "core/io/line_reader.h"
 
 namespace pl {

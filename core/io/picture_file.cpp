@@ -71,4 +71,8 @@ void require_writable(const fs::path& path) {
     unlink(probe.c_str());
 }
 
+std::filesystem::path frame_file(const std::filesystem::path& folder, int index, ImageKind kind) {
+    return folder / fmt::format("frame_{:04}.{}", index + 1, name_of(kind));
+}
+
 }  // namespace pl

@@ -25,4 +25,9 @@ void save_picture(const std::filesystem::path& path, const Snapshot& snapshot, c
 /// Throws Error(Runtime) unless a file of this name can be made or replaced. Leaves no trace.
 void require_writable(const std::filesystem::path& path);
 
+// Names of the files of a sequence: the pictures of a camera path, in one folder.
+
+/// FOLDER/frame_0001.png for index 0, with at least four digits; its suffix tells the kind.
+std::filesystem::path frame_file(const std::filesystem::path& folder, int index, ImageKind kind);
+
 }  // namespace pl

@@ -11,7 +11,6 @@
 
 #include "core/base/error.h"
 #include "core/io/files.h"
-#include "core/io/image_checks.h"
 
 namespace pl {
 

@@ -11,7 +11,7 @@
 
 #include "core/io/files.h"
 #include "core/io/json_file.h"
-#include "core/io/mtl_surface.h"
+#include "core/io/mtl.h"
 #include "core/io/nearest_name.h"
 #include "core/io/sky/sky_model.h"
 #include "core/io/texture_file.h"

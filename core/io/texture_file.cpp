@@ -1,8 +1,11 @@
 #include "core/io/texture_file.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -10,6 +13,7 @@
 #include "core/base/memory.h"
 #include "core/io/decode_image.h"
 #include "core/io/files.h"
+#include "core/io/image.h"
 
 namespace pl {
 
@@ -144,6 +148,114 @@ fs::path path_inside(const fs::path& folder, const std::string& name) {
     const fs::path relative(slashes);
     const bool has_drive = slashes.size() > 1 && slashes[1] == ':';
     return relative.empty() || has_drive || !stays_inside(folder, relative) ? fs::path() : folder / relative;
+}
+
+namespace {
+
+/// Indices of the texels before and behind one of a row or column, and how far apart they are.
+struct Neighbors {
+    std::uint32_t before, behind;
+    float distance;
+};
+
+Neighbors neighbors_of(std::uint32_t i, std::uint32_t count, bool repeats) {
+    if (repeats) return {(i + count - 1) % count, (i + 1) % count, 2.0f};
+    const std::uint32_t before = i > 0 ? i - 1 : 0;
+    const std::uint32_t behind = std::min(i + 1, count - 1);
+    return {before, behind, static_cast<float>(std::max(behind - before, 1u))};
+}
+
+float finite_or_none(float slope) { return std::isfinite(slope) ? slope : 0.0f; }
+
+}  // namespace
+
+void turn_into_normals(TextureDescription& heights, glm::vec2 rise) {
+    std::vector<glm::vec4> normals(heights.texels.size());
+    for (std::uint32_t row = 0; row < heights.height; ++row) {
+        // Rows go down, v goes up.
+        const Neighbors v = neighbors_of(row, heights.height, heights.repeats);
+        for (std::uint32_t column = 0; column < heights.width; ++column) {
+            const Neighbors u = neighbors_of(column, heights.width, heights.repeats);
+            const auto height = [&](std::uint32_t x, std::uint32_t y) {
+                return heights.texels[std::size_t{y} * heights.width + x].x;
+            };
+            const float along_u = rise.x * (height(u.behind, row) - height(u.before, row)) / u.distance;
+            const float along_v = rise.y * (height(column, v.before) - height(column, v.behind)) / v.distance;
+            const glm::vec3 normal =
+                glm::normalize(glm::vec3(-finite_or_none(along_u), -finite_or_none(along_v), 1.0f));
+            normals[std::size_t{row} * heights.width + column] = glm::vec4(0.5f * normal + 0.5f, 1.0f);
+        }
+    }
+    heights.texels = std::move(normals);
+}
+
+namespace {
+
+/// The channels in use; one channel as gray.
+glm::vec3 used_channels(const glm::vec4& texel, TextureContent use) {
+    switch (use) {
+    case TextureContent::Color:
+    case TextureContent::Normal:
+    case TextureContent::Height: break;
+    case TextureContent::Number: return glm::vec3(texel.x);
+    case TextureContent::Opacity: return glm::vec3(texel.w);
+    }
+    return glm::vec3(texel);
+}
+
+/// Values that the codes of 8 bits are read as, rising.
+std::array<float, 256> values_of_codes(TextureContent use) {
+    std::array<float, 256> values{};
+    for (std::size_t code = 0; code < values.size(); ++code) {
+        const float linear = static_cast<float>(code) / 255.0f;
+        values[code] = use == TextureContent::Color ? decode_srgb(linear) : linear;
+    }
+    return values;
+}
+
+/// The picture in 8 bits; nothing if a value is not that of a code.
+std::optional<ByteImage> in_bytes(const LinearImage& image, TextureContent use) {
+    const std::array<float, 256> values = values_of_codes(use);
+    ByteImage bytes{.width = image.width, .height = image.height, .rgb = {}};
+    bytes.rgb.reserve(3 * image.pixels.size());
+    for (const glm::vec3& pixel : image.pixels) {
+        for (int channel = 0; channel < 3; ++channel) {
+            const auto code = std::lower_bound(values.begin(), values.end(), pixel[channel]);
+            if (code == values.end() || *code != pixel[channel]) return std::nullopt;
+            bytes.rgb.push_back(static_cast<std::uint8_t>(code - values.begin()));
+        }
+    }
+    return bytes;
+}
+
+}  // namespace
+
+std::string write_texture(const std::filesystem::path& folder, const std::string& name,
+                          const TextureDescription& texture, TextureContent use) {
+    LinearImage image{
+        .width = static_cast<int>(texture.width), .height = static_cast<int>(texture.height), .pixels = {}};
+    image.pixels.reserve(texture.texels.size());
+    for (const glm::vec4& texel : texture.texels) image.pixels.push_back(used_channels(texel, use));
+    if (const std::optional<ByteImage> bytes = in_bytes(image, use)) {
+        write_png8(folder / (name + ".png"), *bytes);
+        return name + ".png";
+    }
+    write_exr(folder / (name + ".exr"), image);
+    return name + ".exr";
+}
+
+void write_vertex_colors(const std::filesystem::path& path, const std::vector<glm::vec3>& colors) {
+    constexpr std::size_t kMostColumns = 4096;
+    const std::size_t columns = std::clamp<std::size_t>(colors.size(), 1, kMostColumns);
+    const std::size_t rows = (colors.size() + columns - 1) / columns;
+    LinearImage image{.width = static_cast<int>(columns), .height = static_cast<int>(rows), .pixels = colors};
+    image.pixels.resize(columns * rows, glm::vec3(0.0f));
+    write_exr(path, image);
+}
+
+void write_environment_map(const std::filesystem::path& path, const EnvironmentMapDescription& map) {
+    write_exr(path,
+              {.width = static_cast<int>(map.width), .height = static_cast<int>(map.height), .pixels = map.texels});
 }
 
 }  // namespace pl

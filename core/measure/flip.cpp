@@ -145,14 +145,8 @@ Plane seen(const Plane& plane, const Grid& grid, int channel, double pixels_per_
     return result;
 }
 
-/// Strength of edges and points around each pixel.
-struct Features {
-    Plane edges;
-    Plane points;
-};
-
-/// Of lightness in [0, 1].   [section 4.2]
-Features features_of(const Plane& lightness, const Grid& grid, double pixels_per_degree) {
+/// Strength of edges and of points around each pixel, from lightness in [0, 1].   [section 4.2]
+std::array<Plane, 2> features_of(const Plane& lightness, const Grid& grid, double pixels_per_degree) {
     const double deviation = 0.5 * kFeatureWidthDegrees * pixels_per_degree;
     const int radius = static_cast<int>(std::ceil(3.0 * deviation));
     const auto bell = [&](double i) { return std::exp(-i * i / (2.0 * deviation * deviation)); };
@@ -174,7 +168,7 @@ Features features_of(const Plane& lightness, const Grid& grid, double pixels_per
 /// A picture in the terms of the metric: filtered colors and features.
 struct Impression {
     std::vector<Vec3d> colors;
-    Features features;
+    std::array<Plane, 2> features;  ///< edges, points
 };
 
 double shown(float radiance) { return radiance > 0.0f ? std::min(static_cast<double>(radiance), 1.0) : 0.0; }
@@ -210,8 +204,8 @@ std::vector<float> flip_map(Pixels picture, Pixels reference, int width, double 
     map.reserve(grid.size());
     for (std::size_t i = 0; i < grid.size(); ++i) {
         const double color = compressed(color_distance(a.colors[i], b.colors[i]));
-        const double edge = std::fabs(a.features.edges[i] - b.features.edges[i]);
-        const double point = std::fabs(a.features.points[i] - b.features.points[i]);
+        const double edge = std::fabs(a.features[0][i] - b.features[0][i]);
+        const double point = std::fabs(a.features[1][i] - b.features[1][i]);
         const double feature = std::pow(std::max(edge, point) / std::numbers::sqrt2, kFeatureExponent);
         map.push_back(static_cast<float>(std::pow(color, 1.0 - feature)));
     }

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "core/base/error.h"
-#include "core/base/parallel_chunks.h"
+#include "core/base/parallel.h"
 #include "core/measure/block_means.h"
 
 namespace pl {

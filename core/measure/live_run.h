@@ -1,16 +1,34 @@
-// The runs of a viewer as data: points over time with their errors, noise and pictures.
+// A measured run: its pictures, kept in bounded memory.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "core/measure/half_picture.h"
 #include "core/measure/halves.h"
+#include "core/measure/metrics.h"
 #include "core/session/snapshot.h"
 
 namespace pl {
+
+// Pictures kept for later, in half floats: half the memory, three digits.
+
+/// Linear values, row 0 on top.
+struct HalfPicture {
+    int width = 0;
+    int height = 0;
+    std::vector<std::uint16_t> rgb;
+
+    std::size_t bytes() const { return rgb.size() * sizeof(std::uint16_t); }
+};
+
+HalfPicture half_picture(int width, int height, Pixels pixels);
+std::vector<Vec3f> pixels_of(const HalfPicture& picture);
+
+// The runs of a viewer as data: points over time with their errors, noise and pictures.
 
 /// Labels of a run, which distinguish its curve from others.
 struct RunLabel {
@@ -64,5 +82,18 @@ struct LiveReference {
     std::vector<Vec3f> first;
     std::vector<Vec3f> second;
 };
+
+// The choice of the picture to drop when the pictures of live runs exceed their memory.
+
+/// A picture by its place: a run, and a point of it.
+struct PicturePlace {
+    std::size_t run = 0;
+    std::size_t point = 0;
+};
+
+/// The picture that is needed least: of the oldest run that shows another picture than `present` (a picture_key()), if there
+/// is one; else the one whose neighbors in time are closest to each other. The last picture of a run goes at the end. At
+/// least one picture is left.
+PicturePlace least_needed_picture(const std::vector<std::shared_ptr<const LiveRun>>& runs, std::uint64_t present);
 
 }  // namespace pl

@@ -4,10 +4,10 @@
 #include <cmath>
 
 #include "core/base/error.h"
+#include "core/base/parallel.h"
 #include "core/base/timer.h"
-#include "core/base/work_queue.h"
+#include "core/measure/live_run.h"
 #include "core/measure/picture_identity.h"
-#include "core/measure/picture_memory.h"
 
 namespace pl {
 namespace {
@@ -187,12 +187,6 @@ std::optional<LivePoint> LiveRuns::measure(const Session& session, FilmSlot slot
 void LiveRuns::forget(std::uint64_t number) {
     std::erase_if(runs_, [&](const std::shared_ptr<const LiveRun>& run) { return run->number == number; });
     if (const auto track = tracks_.find(number); track != tracks_.end()) track->second.next_seconds = 0.0;
-    update_current();
-}
-
-void LiveRuns::forget_all() {
-    runs_.clear();
-    for (auto& [number, track] : tracks_) track.next_seconds = 0.0;
     update_current();
 }
 

@@ -47,7 +47,6 @@ public:
 
     /// If the session renders the run, it begins anew with its next point.
     void forget(std::uint64_t number);
-    void forget_all();
 
     std::shared_ptr<const LiveRunSet> current() const { return current_; }
 

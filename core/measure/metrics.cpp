@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/base/error.h"
-#include "core/base/parallel_chunks.h"
+#include "core/base/parallel.h"
 
 namespace pl {
 namespace {
@@ -20,25 +20,9 @@ void require_same_size(Pixels picture, Pixels reference) {
                                           " pixels as the reference has, got " + std::to_string(picture.size()));
 }
 
-std::size_t trimmed_count(std::size_t pixels, double share = kTrimmedShare) {
-    const auto kept = static_cast<std::size_t>(std::ceil((1.0 - share) * static_cast<double>(pixels)));
+std::size_t trimmed_count(std::size_t pixels) {
+    const auto kept = static_cast<std::size_t>(std::ceil((1.0 - kTrimmedShare) * static_cast<double>(pixels)));
     return pixels - kept;
-}
-
-/// A pixel of a trimmed mean: the least `rank` stay.
-struct RankedTerm {
-    double rank = 0.0;
-    double term = 0.0;
-};
-
-/// 0 for none.
-double trimmed_mean(std::vector<RankedTerm> terms, double left_out) {
-    if (terms.empty()) return 0.0;
-    const std::size_t kept = terms.size() - trimmed_count(terms.size(), left_out);
-    std::sort(terms.begin(), terms.end(), [](const RankedTerm& a, const RankedTerm& b) { return a.rank < b.rank; });
-    double sum = 0.0;
-    for (std::size_t i = 0; i < kept; ++i) sum += terms[i].term;
-    return sum / static_cast<double>(kept);
 }
 
 /// A sum that keeps its largest terms apart, so that one of them, however large, costs the others no digit.
@@ -193,34 +177,6 @@ Metrics measure_error(Pixels picture, const ReferenceHalves& reference, int thre
     for (const ErrorSums& sums : sums_of_chunks(picture.size(), kPixelChunk, threads, ErrorSums(picture.size()), add))
         total.add(sums);
     return total.finish();
-}
-
-TrimmedErrors measure_trimmed(Pixels picture, const ReferenceHalves& reference, double left_out) {
-    require_same_size(picture, reference.first);
-    require_same_size(picture, reference.second);
-    std::vector<RankedTerm> squares;
-    std::vector<RankedTerm> relative_squares;
-    for (std::size_t i = 0; i < picture.size(); ++i) {
-        if (!is_finite(picture[i]) || !is_finite(reference.first[i]) || !is_finite(reference.second[i])) continue;
-        const Vec3d x{picture[i]};
-        const Vec3d r1{reference.first[i]};
-        const Vec3d r2{reference.second[i]};
-        const Vec3d r = 0.5 * (r1 + r2);
-        RankedTerm square;
-        RankedTerm relative;
-        for (int c = 0; c < 3; ++c) {
-            const double distance = (x[c] - r[c]) * (x[c] - r[c]);
-            const double product = (x[c] - r1[c]) * (x[c] - r2[c]);
-            const double weight = 1.0 / (r[c] * r[c] + kEpsilon);
-            square.rank += distance;
-            square.term += product / 3.0;
-            relative.rank += distance * weight;
-            relative.term += product * weight / 3.0;
-        }
-        squares.push_back(square);
-        relative_squares.push_back(relative);
-    }
-    return {trimmed_mean(std::move(squares), left_out), trimmed_mean(std::move(relative_squares), left_out)};
 }
 
 }  // namespace pl

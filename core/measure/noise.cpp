@@ -1,8 +1,7 @@
 #include "core/measure/noise.h"
 
-#include "core/base/parallel_chunks.h"
+#include "core/base/parallel.h"
 #include "core/measure/block_means.h"
-#include "core/measure/window_means.h"
 
 namespace pl {
 namespace {

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "core/measure/convergence.h"
+#include "core/measure/error_target.h"
 #include "core/measure/halves.h"
-#include "core/measure/measure_budget.h"
 #include "core/session/session.h"
 
 namespace pl {

@@ -1,8 +1,10 @@
 #include "core/measure/statistics.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <vector>
 
 namespace pl {
@@ -128,12 +130,29 @@ double line_slope(std::span<const double> x, std::span<const double> y) {
     return squares > 0.0 ? products / squares : kNone;
 }
 
-double median_of(std::span<const double> values) {
-    if (values.empty()) return kNone;
-    std::vector<double> sorted(values.begin(), values.end());
-    std::sort(sorted.begin(), sorted.end());
-    const std::size_t middle = sorted.size() / 2;
-    return sorted.size() % 2 == 1 ? sorted[middle] : 0.5 * (sorted[middle - 1] + sorted[middle]);
+double without_bias(const GroupFigure& figure, GroupSet groups) {
+    return 2.0 * figure(groups) - 0.5 * (figure(groups & kEvenGroups) + figure(groups & kOddGroups));
+}
+
+Interval jackknife_interval(const GroupFigure& figure) {
+    constexpr int kPairs = 16;
+    std::array<double, kPairs> values{};
+    for (int pair = 0; pair < kPairs; ++pair)
+        values[static_cast<std::size_t>(pair)] = figure(kAllGroups & ~(3u << (2 * pair)));
+    const double mean = std::accumulate(values.begin(), values.end(), 0.0) / kPairs;
+    double squares = 0.0;
+    for (const double value : values) squares += (value - mean) * (value - mean);
+    const double error = std::sqrt(squares * (kPairs - 1) / kPairs);
+    const double half = student_quantile(0.5 + 0.5 * kConfidence, kPairs - 1) * error;
+    const double value = figure(kAllGroups);
+    return {value, value - half, value + half};
+}
+
+Interval jackknife_ratio(const GroupFigure& figure) {
+    const Interval log = jackknife_interval([&](GroupSet set) { return std::log(figure(set)); });
+    if (!std::isfinite(log.low) || !std::isfinite(log.high))
+        return {figure(kAllGroups), 0.0, std::numeric_limits<double>::infinity()};
+    return {std::exp(log.value), std::exp(log.low), std::exp(log.high)};
 }
 
 }  // namespace pl

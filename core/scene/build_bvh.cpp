@@ -9,8 +9,7 @@
 
 #include "core/base/error.h"
 #include "core/base/host_array.h"
-#include "core/base/parallel_chunks.h"
-#include "core/base/run_tasks.h"
+#include "core/base/parallel.h"
 #include "core/scene/bvh_split.h"
 
 namespace pl {

@@ -5,7 +5,7 @@
 #include <map>
 #include <mutex>
 
-#include "core/base/parallel_chunks.h"
+#include "core/base/parallel.h"
 #include "core/kernel/shading/fresnel.h"
 #include "core/kernel/shading/velvet.h"
 #include "core/scene/facet_albedo.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/base/parallel_chunks.h"
+#include "core/base/parallel.h"
 #include "core/scene/build_bvh.h"
 #include "core/scene/instances.h"
 #include "core/scene/normals.h"

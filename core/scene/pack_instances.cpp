@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/base/parallel_chunks.h"
+#include "core/base/parallel.h"
 #include "core/scene/affine.h"
 #include "core/scene/build_bvh.h"
 #include "core/scene/instance_boxes.h"

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "core/base/memory.h"
-#include "core/base/parallel_chunks.h"
+#include "core/base/parallel.h"
 #include "core/kernel/shading/fresnel.h"
 #include "core/scene/instance_boxes.h"
 #include "core/scene/instances.h"

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "core/base/parallel_chunks.h"
+#include "core/base/parallel.h"
 #include "core/kernel/scene/triangle_plane.h"
 
 namespace pl {

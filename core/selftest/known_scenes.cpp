@@ -3,8 +3,6 @@
 #include <array>
 #include <cmath>
 
-#include "core/selftest/form_factors.h"
-
 namespace pl {
 namespace {
 

@@ -4,7 +4,7 @@
 
 #include "core/base/error.h"
 #include "core/base/memory.h"
-#include "core/base/usable_threads.h"
+#include "core/base/parallel.h"
 
 namespace pl {
 

@@ -2,7 +2,7 @@
 // sanitizer, which does not see the synchronization of the OpenMP run-time library.
 #pragma once
 
-#include "core/base/work_queue.h"
+#include "core/base/parallel.h"
 
 #ifndef PL_TSAN
 #include <omp.h>

@@ -8,10 +8,10 @@
 
 #include <fmt/format.h>
 
-#include "app/build_info.h"
-#include "app/choices.h"
 #include "app/help.h"
+#include "app/option_parsers.h"
 #include "app/parse_values.h"
+#include "app/version.h"
 #include "core/io/load_scene.h"
 #include "tests/app/parsing.h"
 #include "tests/support/program/run_program.h"

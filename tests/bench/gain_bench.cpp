@@ -16,7 +16,7 @@
 #include <cstdio>
 #include <memory>
 
-#include "core/bench/make_reference.h"
+#include "core/bench/reference_store.h"
 #include "core/io/load_scene.h"
 #include "cpu/cpu_backend.h"
 #include "tests/bench/gain_report.h"

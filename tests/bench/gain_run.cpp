@@ -6,6 +6,7 @@
 
 #include "core/session/session.h"
 #include "cpu/cpu_backend.h"
+#include "tests/bench/trimmed_errors.h"
 #include "tests/bench/uniform_sampling.h"
 
 namespace pl::benchmarks {

@@ -1,6 +1,6 @@
 #include "tests/bench/uniform_sampling.h"
 
-#include "core/base/work_queue.h"
+#include "core/base/parallel.h"
 #include "core/kernel/integrator/trace_path.h"
 #include "core/kernel/methods/default.h"
 #include "core/scene/pack_scene.h"

@@ -1,6 +1,6 @@
 // docs/extending.md is true: a method in one header and a representation in two, which the project does not know, render through the
 // CPU's own driver and agree with default path tracing by rule S2.
-#include "core/io/binary_stream.h"
+#include "core/io/sealed_file.h"
 #include "cpu/passes/pass_kernels.h"
 #include "cpu/rays/batch_tracer.h"
 #include "tests/cpu/small_room.h"

@@ -13,14 +13,13 @@
 
 #include "core/base/error.h"
 #include "tests/ui/model_bench.h"
-#include "ui/draw/gui_memory.h"
+#include "ui/draw/imgui_draw.h"
 #include "ui/draw/style.h"
 #include "ui/input/input_router.h"
 #include "ui/script/script_player.h"
 #include "ui/script/script_values.h"
 #include "ui/window/display.h"
-#include "ui/window/draw_interface.h"
-#include "ui/window/mouse_tracker.h"
+#include "ui/window/gui.h"
 
 namespace pl::test {
 using namespace pl::ui;
@@ -88,7 +87,7 @@ public:
         ImGui::NewFrame();
         memory_.places.clear();
         memory_.pointer_rest_seconds = 1.0f;  // tooltips, too
-        draw_interface(model, layout, image, plan, HoveredPixel{}, nullptr);
+        draw_interface(model, layout, image, plan, PixelPosition{}, nullptr);
         ImGui::Render();
     }
 

@@ -5,7 +5,7 @@
 
 #include "core/kernel/integrator/trace_path.h"
 #include "core/kernel/methods/default.h"
-#include "core/selftest/form_factors.h"
+#include "core/selftest/known_scenes.h"
 #include "tests/support/catch.hpp"
 #include "tests/support/rays/walk.h"
 #include "tests/support/scenes/closed_scenes.h"

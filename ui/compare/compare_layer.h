@@ -6,7 +6,7 @@
 
 #include "ui/compare/compare_plan.h"
 #include "ui/compare/half_image.h"
-#include "ui/draw/magnifier.h"
+#include "ui/draw/picture_zoom.h"
 #include "ui/draw/stream_texture.h"
 
 namespace pl::ui {

@@ -51,4 +51,14 @@ std::optional<Vec3f> value_of(const TileContent& content, PixelPosition pixel);
 /// Of a frame; empty if it has no values.
 std::optional<Vec3f> value_of(const PublishedFrame& frame, PixelPosition pixel);
 
+// The pixel under the pointer: of one of the compared pictures, or of the picture.
+
+/// Empty if the pointer is over no picture. `image` is the rectangle of the frame's picture.
+std::optional<PointedPixel> pointed_pixel(const ComparePlan& plan, const PublishedFrame& frame, const Rect& image,
+                                          Vec2f pointer);
+
+/// The magnifier there, in the same way.
+std::optional<Magnifier> magnifier_at(const ComparePlan& plan, const PublishedFrame& frame, const Rect& image,
+                                      Vec2f pointer, const Rect& view, float em);
+
 }  // namespace pl::ui

@@ -5,6 +5,8 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "core/kernel/scene/camera.h"
 #include "core/scene/description.h"
@@ -52,5 +54,26 @@ private:
     Rect image_;
     float near_;
 };
+
+// A small curve over passes, as data that can be tested without a window.
+
+struct PassPoint {
+    double passes = 1.0;  ///< at least 1
+    double value = 0.0;
+    double low = 0.0;  ///< interval of the value
+    double high = 0.0;
+};
+
+/// Logarithmic in passes, linear in values from 0 on.
+struct PassScale {
+    double first = 1.0;  ///< passes at the left end
+    double last = 2.0;   ///< at the right end, larger than `first`
+    double top = 1.0;    ///< value at the top
+
+    Vec2f place(const Rect& rect, double passes, double value) const;
+};
+
+/// The scale that shows all points, of several curves one after the other. `least_top`: a value that is shown in any case.
+PassScale scale_of(std::span<const PassPoint> points, double least_top);
 
 }  // namespace pl::ui

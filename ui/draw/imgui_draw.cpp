@@ -5,9 +5,20 @@
 #include <SDL.h>
 
 #include "core/base/error.h"
-#include "ui/draw/imgui_compat.h"
 
 namespace pl::ui {
+
+void create_gui_context(GuiMemory& memory) {
+    IMGUI_CHECKVERSION();
+    ImGui::CreateContext();
+    ImGuiIO& io = ImGui::GetIO();
+    io.IniFilename = nullptr;
+    io.LogFilename = nullptr;
+    io.UserData = &memory;
+}
+
+GuiMemory& gui_memory() { return *static_cast<GuiMemory*>(ImGui::GetIO().UserData); }
+
 namespace {
 
 /// The clip rectangle of a command; empty if it is invisible.

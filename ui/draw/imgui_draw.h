@@ -2,6 +2,66 @@
 // and changed its name twice; this one works with all versions.
 #pragma once
 
+#include <functional>
+#include <map>
+#include <string>
+
+#include <imgui.h>
+
+#include "ui/draw/layout.h"
+
+#if __has_include(<backends/imgui_impl_sdl2.h>)
+#include <backends/imgui_impl_sdl2.h>
+#else
+#include <backends/imgui_impl_sdl.h>
+#endif
+
+#include <cstdint>
+
+struct SDL_Renderer;
+struct SDL_Texture;
+
+namespace pl::ui {
+
+// Dear ImGui 1.86 to 1.92 behind one set of names.
+
+/// From this version on, ImGui takes pointer and buttons from events; before, its platform code polls them.
+inline constexpr bool kImGuiHasEventQueue = IMGUI_VERSION_NUM >= 18700;
+
+inline bool init_imgui_platform(SDL_Window* window, [[maybe_unused]] SDL_Renderer* renderer) {
+#if IMGUI_VERSION_NUM >= 18700
+    return ImGui_ImplSDL2_InitForSDLRenderer(window, renderer);
+#else
+    return ImGui_ImplSDL2_InitForSDLRenderer(window);
+#endif
+}
+
+/// ImTextureID is a pointer up to 1.91.3 and an integer from 1.91.4.
+inline ImTextureID to_texture_id(SDL_Texture* texture) {
+    return (ImTextureID)(std::intptr_t)texture;  // a C cast converts to both
+}
+inline SDL_Texture* from_texture_id(ImTextureID id) { return (SDL_Texture*)(std::intptr_t)id; }
+
+// State that the controls of a window share from frame to frame; io.UserData points to it.
+
+class PictureTextures;
+
+struct GuiMemory {
+    PictureTextures* textures = nullptr;  ///< of the window's renderer
+    float pointer_rest_seconds = 0.0f;    ///< since the pointer moved: tooltips wait for rest
+    float card_top = 0.0f;                ///< upper edge of the tour's card in the last frame
+    /// Rectangles of the controls in the last frame by their labels: scripts point at them.
+    std::map<std::string, Rect, std::less<>> places;
+};
+
+/// A context of Dear ImGui that keeps no files: the layout follows from the window's size. `memory` outlives it.
+void create_gui_context(GuiMemory& memory);
+
+/// Of the present ImGui context.
+GuiMemory& gui_memory();
+
+}  // namespace pl::ui
+
 struct ImDrawData;
 struct SDL_Renderer;
 struct SDL_Texture;

@@ -27,19 +27,14 @@ constexpr float kNearlyFull = 0.95f;
 
 float border_pixels(float em) { return std::round(kBorderEm * em); }
 
-struct Widths {
-    float left;
-    float right;
-};
-
 /// The least width of the right side that a drag can give, with `room` for panels and picture.
 float least_chosen_right(float room, float em) {
     const float most = room - (kSmallestLeftEm + kSmallestViewEm) * em;
     return std::clamp(most, kSmallestRightEm * em, kReadableRightEm * em);
 }
 
-/// `room` is the width of the window without borders.
-Widths panel_widths(float room, float em, const PanelChoice& choice) {
+/// Of the left and of the right side; `room` is the width of the window without borders.
+std::array<float, 2> panel_widths(float room, float em, const PanelChoice& choice) {
     const float least_left = choice.settings ? kSmallestLeftEm * em : 0.0f;
     float least_right = 0.0f;
     const bool is_automatic = choice.settings_em == 0.0f && choice.right_em == 0.0f;
@@ -148,7 +143,7 @@ Rect place_image(const Rect& view, int width, int height) {
             shown_w, shown_h};
 }
 
-ImageSize fit_image(const Rect& view, int width, int height) {
+glm::ivec2 fit_image(const Rect& view, int width, int height) {
     constexpr float kMinWidth = 64.0f;
     const float shape = static_cast<float>(std::max(height, 1)) / static_cast<float>(std::max(width, 1));
     const float w = std::max(std::floor(std::min(view.width, view.height / shape)), kMinWidth);

@@ -53,10 +53,6 @@ PanelChoice free_border(PanelChoice choice, Border border);
 Rect place_image(const Rect& view, int width, int height);
 
 /// Size of a picture with the shape of width x height that fills the view pixel by pixel; at least 64 pixels wide.
-struct ImageSize {
-    int width;
-    int height;
-};
-ImageSize fit_image(const Rect& view, int width, int height);
+glm::ivec2 fit_image(const Rect& view, int width, int height);
 
 }  // namespace pl::ui

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "core/diagnose/path_record.h"
+#include "core/diagnose/record_path.h"
 #include "core/kernel/scene/scene_view.h"
 #include "core/plot/value_scale.h"
 #include "ui/draw/draw_list.h"

@@ -3,8 +3,12 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
+#include <memory>
 
+#include "core/io/image.h"
 #include "ui/draw/draw_list.h"
+#include "ui/draw/imgui_draw.h"
 
 struct SDL_Renderer;
 struct SDL_Texture;
@@ -38,6 +42,23 @@ private:
     SDL_Texture* texture_ = nullptr;
     int width_ = 0;
     int height_ = 0;
+};
+
+// Small pictures as textures of the window's renderer, for controls of Dear ImGui; each is uploaded once.
+
+class PictureTextures {
+public:
+    explicit PictureTextures(SDL_Renderer* renderer) : renderer_(renderer) {}
+    ~PictureTextures();
+    PictureTextures(const PictureTextures&) = delete;
+    PictureTextures& operator=(const PictureTextures&) = delete;
+
+    /// The picture must not change; it is kept. Null if the renderer has no room.
+    SDL_Texture* of(const std::shared_ptr<const ByteImage>& picture);
+
+private:
+    SDL_Renderer* renderer_;
+    std::map<std::shared_ptr<const ByteImage>, SDL_Texture*> textures_;
 };
 
 }  // namespace pl::ui

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 
-#include "ui/draw/imgui_compat.h"
+#include "ui/draw/imgui_draw.h"
 
 namespace pl::ui {
 

@@ -1,7 +1,7 @@
 // A row of tabs.
 #pragma once
 
-#include "ui/draw/imgui_compat.h"
+#include "ui/draw/imgui_draw.h"
 
 namespace pl::ui {
 

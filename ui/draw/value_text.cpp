@@ -34,4 +34,15 @@ std::string short_seconds(double seconds) {
     return fmt::format("{:.0f} s", seconds);
 }
 
+const char* light_samples_text(bool on) { return on ? "light samples on" : "light samples off"; }
+
+std::string passes_text(std::uint64_t count) { return fmt::format("{} {}", count, count == 1 ? "pass" : "passes"); }
+
+std::string method_keys(bool MethodInfo::*flag) {
+    std::string keys;
+    for (const MethodInfo& method : all_methods())
+        if (flag == nullptr || method.*flag) keys += (keys.empty() ? "" : ", ") + std::string(1, method.key);
+    return keys;
+}
+
 }  // namespace pl::ui

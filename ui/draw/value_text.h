@@ -1,9 +1,14 @@
-// Numbers as short texts.
+// Values, lists and methods in words.
 #pragma once
 
+#include <cstdint>
 #include <string>
 
+#include "core/session/methods.h"
+
 namespace pl::ui {
+
+// Numbers as short texts.
 
 /// "12.3 M": three digits and a power of a thousand.
 std::string short_number(double value);
@@ -11,5 +16,18 @@ std::string short_number(double value);
 std::string short_value(double value);
 /// "1.25 s", "85 ms".
 std::string short_seconds(double seconds);
+
+// Settings and counts in words, the same in every part of the window.
+
+/// "light samples on", "light samples off".
+const char* light_samples_text(bool on);
+
+/// "1 pass", "3 passes".
+std::string passes_text(std::uint64_t count);
+
+// The keys of the methods, as messages and tooltips name them.
+
+/// "1, 2, 3"; with a flag only the keys of methods for which it is set.
+std::string method_keys(bool MethodInfo::*flag = nullptr);
 
 }  // namespace pl::ui

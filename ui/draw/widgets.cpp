@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "ui/draw/gui_memory.h"
+#include "ui/draw/imgui_draw.h"
 
 namespace pl::ui {
 namespace {

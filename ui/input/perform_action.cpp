@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "ui/draw/imgui_compat.h"
+#include "ui/draw/imgui_draw.h"
 
 namespace pl::ui {
 namespace {

@@ -2,6 +2,14 @@
 // restarts a picture.
 #pragma once
 
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+
+#include "core/kernel/base/math.h"
+#include "ui/model/render_link.h"
 #include "ui/worker/render_worker.h"
 
 namespace pl::ui {
@@ -40,6 +48,71 @@ private:
     float cells_opacity_ = kStandardOpacity;
     bool low_resolution_ = true;
     bool preview_ = true;
+};
+
+// The distribution of a picture's luminance, on a logarithmic scale.
+
+/// Counts of pixels by the binary logarithm of their luminance.
+struct LuminanceHistogram {
+    static constexpr float kLow = -14.0f;  ///< binary logarithm of the luminance at the lower end of bin 0
+    static constexpr float kHigh = 14.0f;  ///< at the upper end of the last bin
+    static constexpr int kBins = 112;      ///< a quarter of a stop each
+
+    std::array<std::uint32_t, kBins> counts{};
+    std::uint32_t pixels = 0;   ///< looked at
+    std::uint32_t dark = 0;     ///< of these, black or below the lowest bin
+    std::uint32_t bright = 0;   ///< above the highest bin
+    std::uint32_t invalid = 0;  ///< NaN or infinite
+
+    /// Of pixels with a place in the counts.
+    std::uint32_t counted() const { return pixels - dark - bright - invalid; }
+    /// Binary logarithm of the luminance below which a share of the counted pixels lies, by linear interpolation inside its bin.
+    /// Empty if none is counted.
+    std::optional<float> percentile(float share) const;
+    /// Mean of the logarithm over the counted pixels between two percentiles; empty if none is counted.
+    std::optional<float> mean(float low_share, float high_share) const;
+};
+
+/// Looks at no more than `most` pixels, evenly spread.
+LuminanceHistogram make_histogram(std::span<const Vec3f> pixels, std::size_t most = 1u << 16);
+
+/// The exposure in stops at which the mean logarithm of the luminance, without the darkest and the brightest twentieth of the
+/// pixels, is that of a gray of 0.18 [Reinhard et al. 2002, "Photographic Tone Reproduction for Digital Images", eq. 1, 2]. Empty
+/// for a black picture.
+std::optional<float> automatic_exposure(const LuminanceHistogram& histogram);
+
+// The histogram of the picture in the window, and an exposure that follows it. Both look at values that were copied from the film.
+
+class AutoExposure {
+public:
+    /// The exposure stays while it is nearer to the wanted one, in stops: the noise of a picture must not make it flicker.
+    static constexpr float kRest = 0.1f;
+
+    AutoExposure(RenderLink& link, DisplayControls& display) : link_(link), display_(display) {}
+
+    bool is_on() const { return is_on_; }
+    void set_on(bool on);
+    /// Once per frame of the window. With every new frame of the picture the exposure goes half of the way to
+    /// automatic_exposure(), and all of it from half a stop on. An exposure that anything else has set switches it off.
+    void update();
+
+    /// Of the newest frame; null without values, which only frames have that were asked for them. Made once per frame, and only
+    /// when it is called for.
+    const LuminanceHistogram* histogram();
+    /// Number of times that a histogram was made.
+    std::uint64_t times_made() const { return times_made_; }
+    /// Frames must carry the values of the film.
+    bool needs_values() const { return is_on_; }
+
+private:
+    RenderLink& link_;
+    DisplayControls& display_;
+    bool is_on_ = false;
+    float set_to_ = 0.0f;         ///< the exposure that it set last
+    std::uint64_t followed_ = 0;  ///< serial of the frame that it followed last
+    std::uint64_t made_of_ = 0;   ///< serial of the frame of histogram_
+    LuminanceHistogram histogram_{};
+    std::uint64_t times_made_ = 0;
 };
 
 }  // namespace pl::ui

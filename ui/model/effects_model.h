@@ -4,16 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "core/scene/needed_effects.h"
 #include "ui/worker/published_frame.h"
 
 namespace pl::ui {
-
-struct EffectRow {
-    std::string name;
-    std::string reason;  ///< why it is needed; empty if it is not
-
-    bool needed() const { return !reason.empty(); }
-};
 
 class EffectsModel {
 public:

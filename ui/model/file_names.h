@@ -3,13 +3,30 @@
 
 #include <filesystem>
 #include <initializer_list>
+#include <memory>
 #include <string>
 #include <string_view>
 
-#include "ui/model/numbered_names.h"
+#include "core/session/learned_field.h"
 #include "ui/model/viewed_scene.h"
+#include "ui/viewer.h"
 
 namespace pl::ui {
+
+// Numbered file names that never overwrite an existing file.
+
+class NumberedNames {
+public:
+    /// "DIR/STEM-0001" without suffix. No file of this name with one of the suffixes exists, and it was not returned before.
+    std::filesystem::path next(const std::filesystem::path& dir, const std::string& stem,
+                               std::initializer_list<const char*> suffixes);
+
+private:
+    int last_ = 0;  ///< covers returned names whose files are not written yet
+};
+
+/// Letters, digits, '-' and '_' of the text, the rest replaced by '-'.
+std::string file_name_part(const std::string& text);
 
 class FileNames {
 public:
@@ -30,5 +47,17 @@ private:
     std::filesystem::path folder_;
     NumberedNames numbers_;
 };
+
+// Files that the window writes and reads.
+
+/// Writes .png (tone mapped) or .exr (linear) by suffix; `command` repeats the picture in a shell.
+void save_window_picture(const std::filesystem::path& path, const Snapshot& snapshot, const ViewerPicture& picture,
+                         const std::string& command);
+
+/// Writes the pixels of the whole window, panels included, as .png.
+void save_window_pixels(const std::filesystem::path& path, const ByteImage& pixels);
+
+/// Reads a learned field for the open scene. Throws Error(Input) for a damaged file or one of another scene.
+std::shared_ptr<LearnedField> load_window_field(const std::filesystem::path& path, const SceneDescription& scene);
 
 }  // namespace pl::ui

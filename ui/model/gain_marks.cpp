@@ -32,15 +32,15 @@ void GainMarks::drop() {
 }
 
 void GainMarks::take_answer() {
-    const std::optional<GainAnswer> answer = link_.worker().take_gain();
+    const std::optional<GainAnswer> answer = link_.worker().take<GainAnswer>();
     if (!answer || !is_asked_) return;
     is_asked_ = false;
     reason_ = answer->reason;
-    if (!answer->base) {
+    if (!answer->value[0]) {
         result_.reset();
         return;
     }
-    job_ = std::make_unique<Comparison>([base = answer->base, method = answer->method](const JobMonitor&) {
+    job_ = std::make_unique<Comparison>([base = answer->value[0], method = answer->value[1]](const JobMonitor&) {
         const Stopwatch watch;
         auto result = std::make_shared<Result>();
         result->gains = tile_gains(timed_halves(*base), timed_halves(*method), method->width);

@@ -5,8 +5,8 @@
 #include <memory>
 #include <string>
 
-#include "core/measure/tile_gain.h"
-#include "ui/model/background_job.h"
+#include "core/measure/gain.h"
+#include "ui/model/jobs.h"
 #include "ui/model/render_link.h"
 
 namespace pl::ui {

@@ -1,22 +1,32 @@
 #include "ui/model/jobs.h"
 
 #include <exception>
-#include <string>
 
 namespace pl::ui {
 
-void Jobs::push(JobThread::Job job) {
-    thread_.push([this, job = std::move(job)]() -> JobThread::Report {
-        try {
-            return job();
-        } catch (const std::exception& error) {
-            return [this, text = std::string(error.what())] { messages_.say(MessageLevel::Error, text); };
-        }
-    });
+void Jobs::push(Job job) {
+    {
+        const std::lock_guard lock(mutex_);
+        jobs_.push_back(std::move(job));
+        ++pending_;
+    }
+    wake_.notify_all();
+}
+
+Jobs::Report Jobs::report_of(const Job& job) {
+    try {
+        return job();
+    } catch (const std::exception& error) {
+        return [this, text = std::string(error.what())] { messages_.say(MessageLevel::Error, text); };
+    }
 }
 
 void Jobs::update() {
-    for (const JobThread::Report& report : thread_.take_reports())
+    const auto reports = [&] {
+        const std::lock_guard lock(mutex_);
+        return std::exchange(reports_, {});
+    }();
+    for (const Report& report : reports)
         if (report) report();
 }
 

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "core/inspect/guiding_figures.h"
-#include "ui/model/background_job.h"
+#include "ui/model/jobs.h"
 #include "ui/worker/field_history.h"
 #include "ui/worker/published_frame.h"
 

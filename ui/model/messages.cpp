@@ -8,10 +8,12 @@ namespace {
 constexpr double kToastSeconds = 4.0;
 constexpr double kErrorToastSeconds = 10.0;
 
+double shown_seconds(MessageLevel level) { return level == MessageLevel::Info ? kToastSeconds : kErrorToastSeconds; }
+
 }  // namespace
 
 void Messages::drop_expired() {
-    std::erase_if(toasts_, [&](const Toast& toast) { return toast.until <= now_; });
+    std::erase_if(toasts_, [&](const LogLine& toast) { return toast.seconds + shown_seconds(toast.level) <= now_; });
 }
 
 void Messages::note(MessageLevel level, const std::string& text) {
@@ -31,7 +33,7 @@ std::string Messages::texts_after(std::uint64_t count) const {
 void Messages::say(MessageLevel level, const std::string& text) {
     note(level, text);
     if (toasts_.size() >= kMaxToasts) toasts_.erase(toasts_.begin());
-    toasts_.push_back({level, text, now_ + (level == MessageLevel::Info ? kToastSeconds : kErrorToastSeconds)});
+    toasts_.push_back({now_, level, text});
 }
 
 }  // namespace pl::ui

@@ -10,15 +10,9 @@ namespace pl::ui {
 enum class MessageLevel { Info, Warning, Error };
 
 struct LogLine {
-    double seconds;  ///< since the start of the viewer
+    double seconds;  ///< since the start of the viewer, by the window's clock
     MessageLevel level;
     std::string text;
-};
-
-struct Toast {
-    MessageLevel level;
-    std::string text;
-    double until;  ///< time of expiry on the window's clock
 };
 
 class Messages {
@@ -39,13 +33,13 @@ public:
     std::uint64_t count() const { return count_; }
     /// The texts of the messages after the first `count`, each on a line, as far as the log keeps them.
     std::string texts_after(std::uint64_t count) const;
-    const std::vector<Toast>& toasts() const { return toasts_; }
+    const std::vector<LogLine>& toasts() const { return toasts_; }
 
 private:
     double now_ = 0.0;
     std::vector<LogLine> log_;
     std::uint64_t count_ = 0;
-    std::vector<Toast> toasts_;
+    std::vector<LogLine> toasts_;
 };
 
 }  // namespace pl::ui

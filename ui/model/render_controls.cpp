@@ -6,7 +6,7 @@
 
 #include "core/fields/field_choices.h"
 #include "core/fields/field_kernels.h"
-#include "ui/draw/words.h"
+#include "ui/draw/value_text.h"
 
 namespace pl::ui {
 
@@ -29,13 +29,13 @@ void RenderControls::set_method(MethodId method) {
     if (method == settings_.method) return;
     previous_method_ = settings_.method;
     settings_.method = method;
-    worker_.submit(EditMethod{method});
+    worker_.submit(method);
 }
 
 void RenderControls::set_view(View view) {
     if (view == settings_.view) return;
     settings_.view = view;
-    worker_.submit(EditView{view});
+    worker_.submit(view);
 }
 
 void RenderControls::step_view(int steps) {

@@ -4,8 +4,8 @@
 #include <string>
 
 #include "ui/model/camera_motion.h"
+#include "ui/model/render_link.h"
 #include "ui/model/selection.h"
-#include "ui/model/services.h"
 
 namespace pl::ui {
 

@@ -5,11 +5,35 @@
 #include <bitset>
 #include <memory>
 #include <optional>
+#include <string>
 
-#include "ui/model/throughput.h"
+#include "core/session/snapshot.h"
+#include "ui/model/jobs.h"
+#include "ui/model/messages.h"
+#include "ui/viewer.h"
 #include "ui/worker/render_worker.h"
 
 namespace pl::ui {
+
+// Camera paths per second of rendering, over intervals of half a second of the render clock.
+
+class Throughput {
+public:
+    static constexpr double kIntervalSeconds = 0.5;
+
+    /// A newer snapshot of a film, rendered by this back end. Another film, or one that was cleared, starts over.
+    void observe(const Snapshot& snapshot, const std::string& backend);
+
+    /// Million camera paths per second; 0 before the first pass.
+    double mpaths_per_second() const { return mpaths_per_second_; }
+
+private:
+    double mpaths_per_second_ = 0.0;
+    FilmSlot slot_;
+    std::string backend_;
+    std::uint64_t paths_ = 0;  ///< at the start of the interval
+    double seconds_ = 0.0;     ///< on the render clock, at the start of the interval
+};
 
 class RenderLink {
 public:
@@ -51,6 +75,16 @@ private:
     Throughput throughput_;
     std::optional<TurnMethods> turns_;
     std::bitset<5> holds_;
+};
+
+// The objects that the parts of the viewer model share: options, messages, file jobs, the render thread.
+
+/// All outlive the parts that are given them.
+struct ModelServices {
+    const ViewerOptions& options;
+    Messages& messages;
+    Jobs& jobs;
+    RenderLink& link;
 };
 
 }  // namespace pl::ui

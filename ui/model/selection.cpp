@@ -6,13 +6,13 @@ namespace pl::ui {
 
 void Selection::update() {
     light_.update(link_.frame(), inspection(), link_.worker().history());
-    const std::optional<PickAnswer> answer = link_.worker().take_pick();
+    const std::optional<PickAnswer> answer = link_.worker().take<PickAnswer>();
     if (!answer || !awaits_pick_) return;
-    if (!answer->point) {
+    if (!answer->value) {
         messages_.say(MessageLevel::Info, "nothing to select: the ray leaves the scene");
         return;
     }
-    picked_ = answer->point;
+    picked_ = answer->value;
     material_ = picked_->material;
     if (picked_->volume == kNoVolume) {
         messages_.say(MessageLevel::Info, "no radiance volume serves this surface: it reflects nothing");

@@ -58,9 +58,7 @@ void write_thumbnail(const std::filesystem::path& file, const ByteImage& image) 
 }
 
 std::optional<ByteImage> render_thumbnail(std::shared_ptr<const SceneDescription> scene,
-                                          const BackendFactory& make_backend, ThumbnailQuality quality,
-                                          const StopFlag* stop) {
-    const bool is_draft = quality == ThumbnailQuality::Draft;
+                                          const BackendFactory& make_backend, bool is_draft, const StopFlag* stop) {
     RenderSettings settings;
     settings.method = is_draft ? MethodId::Default : learning_method();
     settings.next_event = true;

@@ -22,12 +22,8 @@ std::optional<ByteImage> read_thumbnail(const std::filesystem::path& file);
 /// Writes all of it or nothing. Throws Error(Runtime).
 void write_thumbnail(const std::filesystem::path& file, const ByteImage& image);
 
-/// A draft takes a few samples of `default`, a thirtieth of the time.
-enum class ThumbnailQuality { Draft, Whole };
-
 /// By the scene's own camera, on the CPU. Empty if it was stopped. Throws Error.
 std::optional<ByteImage> render_thumbnail(std::shared_ptr<const SceneDescription> scene,
-                                          const BackendFactory& make_backend, ThumbnailQuality quality,
-                                          const StopFlag* stop);
+                                          const BackendFactory& make_backend, bool is_draft, const StopFlag* stop);
 
 }  // namespace pl::ui

@@ -1,20 +1,126 @@
 // The scene in the window: its name, its loading, its knobs, and its materials as edited since.
 #pragma once
 
+#include <algorithm>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "core/scene/description.h"
 #include "ui/model/camera_motion.h"
-#include "ui/model/edited_materials.h"
 #include "ui/model/file_watch.h"
-#include "ui/model/recent_files.h"
-#include "ui/model/scene_loader.h"
+#include "ui/model/render_link.h"
 #include "ui/model/selection.h"
-#include "ui/model/services.h"
 
 namespace pl::ui {
+
+// The scenes opened last, by name or file.
+
+class RecentFiles {
+public:
+    static constexpr std::size_t kMost = 10;
+
+    /// To the front; a name that is there already moves.
+    void add(const std::string& name) {
+        std::erase(names_, name);
+        names_.insert(names_.begin(), name);
+        if (names_.size() > kMost) names_.resize(kMost);
+    }
+    /// Newest first, without duplicates, kMost of them.
+    const std::vector<std::string>& names() const { return names_; }
+    /// As names() gave them in another session; those that break its rules are dropped.
+    void set(const std::vector<std::string>& names) {
+        names_.clear();
+        for (auto name = names.rbegin(); name != names.rend(); ++name) add(*name);
+    }
+
+private:
+    std::vector<std::string> names_;
+};
+
+// Loads scenes on the helper thread: one at a time, and of the requests made meanwhile only the newest.
+
+/// Reasons for loading a scene, which decide about the parts of the window that stay.
+enum class LoadReason {
+    Open,    ///< another scene
+    Reload,  ///< the files again: the camera stays
+    Knobs,   ///< other values of knobs: camera and edited materials stay
+    Change,  ///< a file has changed: camera, knobs and edited materials stay
+};
+
+struct LoadOrder {
+    SceneRequest scene;
+    LoadReason reason = LoadReason::Open;
+    std::string changed{};  ///< the file, for LoadReason::Change
+};
+
+class SceneLoader {
+public:
+    /// Called on the window's thread. `scene` is null if it cannot be loaded; `failure` says why.
+    using Finish = std::function<void(const LoadOrder& order, std::shared_ptr<const SceneDescription> scene,
+                                      const std::string& failure)>;
+
+    SceneLoader(const ModelServices& services, Finish finish)
+        : options_(services.options), jobs_(services.jobs), finish_(std::move(finish)) {}
+
+    /// Replaces an order that waits. One that is being loaded is finished first, and dropped for another scene.
+    void load(LoadOrder order);
+    /// The newest order that is not finished; null without one.
+    const LoadOrder* newest() const;
+
+private:
+    void start(LoadOrder order);
+    void end(std::shared_ptr<const SceneDescription> scene, const std::string& failure);
+
+    const ViewerOptions& options_;
+    Jobs& jobs_;
+    Finish finish_;
+    std::optional<LoadOrder> running_;
+    std::optional<LoadOrder> waiting_;
+};
+
+// The materials of the scene in the window, as edited since it was loaded.
+
+class EditedMaterials {
+public:
+    explicit EditedMaterials(std::shared_ptr<const SceneDescription> file) { open(std::move(file)); }
+
+    /// Another scene, with unedited materials.
+    void open(std::shared_ptr<const SceneDescription> file);
+
+    /// The same scene, loaded anew: edits stay where the material of this number still has its name and the edited
+    /// values are valid.
+    void reopen(std::shared_ptr<const SceneDescription> file);
+
+    const std::vector<MaterialDescription>& now() const { return now_; }
+    /// As in the file.
+    const MaterialDescription& in_file(std::uint32_t index) const { return file_->materials[index]; }
+    const std::shared_ptr<const SceneDescription>& file() const { return file_; }
+    bool is_edited(std::uint32_t index) const { return now_[index] != in_file(index); }
+    /// Names of all materials that differ from the file.
+    std::vector<std::string> edited_names() const;
+    /// All that a file can name: of several materials of one name the first, and none without a name.
+    std::vector<MaterialDescription> named() const;
+    /// Whether named() has all edits.
+    bool are_edits_named() const;
+
+    /// Replaces a material. Throws Error(Input) as validate_material() does; the old one stays then.
+    void set(std::uint32_t index, const MaterialDescription& material);
+
+private:
+    std::shared_ptr<const SceneDescription> file_;
+    std::vector<MaterialDescription> now_;
+};
+
+/// Its name in lists: files may omit names.
+std::string shown_name(const MaterialDescription& material, std::uint32_t index);
+
+/// Whether the change may move radiance volumes; the number of the selected one is then invalid. See
+/// same_placement().
+bool may_move_volumes(const MaterialDescription& before, const MaterialDescription& after);
 
 class ViewedScene {
 public:

@@ -1,6 +1,6 @@
 #include "ui/model/viewer_model.h"
 #include "core/scene/instances.h"
-#include "ui/draw/words.h"
+#include "ui/draw/value_text.h"
 
 #include <fmt/format.h>
 

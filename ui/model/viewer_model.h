@@ -5,17 +5,17 @@
 #include <memory>
 #include <string>
 
-#include "ui/model/auto_exposure.h"
-#include "ui/model/camera_flight.h"
+#include "ui/model/bookmarks.h"
 #include "ui/model/compare_controls.h"
 #include "ui/model/diagnostics_search.h"
+#include "ui/model/display_controls.h"
 #include "ui/model/effects_model.h"
 #include "ui/model/field_flowers.h"
 #include "ui/model/gain_marks.h"
 #include "ui/model/guided_tour.h"
 #include "ui/model/open_dialog.h"
 #include "ui/model/path_explorer.h"
-#include "ui/model/self_test_control.h"
+#include "ui/model/self_test.h"
 #include "ui/model/window_state.h"
 
 namespace pl::ui {

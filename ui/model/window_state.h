@@ -7,9 +7,26 @@
 #include "ui/draw/layout.h"
 #include "ui/draw/lobes.h"
 #include "ui/draw/picture_zoom.h"
-#include "ui/plot/plot_drag.h"
+#include "ui/plot/plot_view.h"
 
 namespace pl::ui {
+
+// Place of a window on the desktop, and scale of its text.
+
+/// In the desktop's coordinates.
+struct WindowPlace {
+    int x = 0;
+    int y = 0;
+    int width = 0;
+    int height = 0;
+    bool maximized = false;  ///< the others are those before
+
+    friend bool operator==(const WindowPlace&, const WindowPlace&) = default;
+};
+
+/// Smallest and largest scale of text and controls.
+inline constexpr float kLeastUiScale = 0.75f;
+inline constexpr float kMostUiScale = 2.0f;
 
 /// The values drawn in the cells of the selected volume's hemisphere.
 struct CellDisplay {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "ui/draw/layout.h"
-#include "ui/draw/magnifier.h"
+#include "ui/draw/picture_zoom.h"
 #include "ui/model/viewer_model.h"
 
 namespace pl::ui {

@@ -3,14 +3,18 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "core/kernel/geometry/intersector.h"
 #include "ui/draw/style.h"
+#include "ui/draw/widgets.h"
+#include "ui/overlays/overlays.h"
 
 namespace pl::ui {
 namespace {
 
 constexpr float kLobeShare = 0.09f;  ///< of the scene's diagonal: the longest of the shown lobes
-constexpr std::uint8_t kAlpha = 235;
+constexpr std::uint8_t kNormalAlpha = 235;
 constexpr std::uint8_t kHiddenAlpha = 90;  ///< if the scene hides it from the camera
 constexpr int kRimSteps = 48;
 
@@ -75,7 +79,7 @@ void draw_volume(const ShapeCanvas& canvas, const ShownVolume& shown, const Shap
     const float share = scale.shape == LobeShape::Lobe ? kLobeShare : kDomeShare;
     const float radius = share * canvas.frame.facts.diagonal;
     const bool hidden = is_hidden(canvas.frame, volume, 0.3f * radius);
-    const std::uint8_t alpha = hidden ? kHiddenAlpha : kAlpha;
+    const std::uint8_t alpha = hidden ? kHiddenAlpha : kNormalAlpha;
     std::vector<float> lengths = densities_of(volume);
     for (float& length : lengths) length /= std::max(largest, 1.0e-30f);
     const float longest = scale.shape == LobeShape::Lobe ? *std::ranges::max_element(lengths) : 1.0f;
@@ -125,6 +129,139 @@ void draw_mesh(ImDrawList& out, const ScreenMesh& mesh) {
             out.PrimVtx({point.x, point.y}, uv, mesh.colors[mesh.indices[i]]);
         }
     }
+}
+
+namespace {
+
+/// The direction of the hovered cell, up to the surface in that direction.
+void draw_hovered_ray(ImDrawList& out, const PublishedFrame& frame, const Projection& projection,
+                      const VolumeInspection& volume, int cell) {
+    if (cell < 0 || cell >= volume.side * volume.side) return;
+    const CellFan fan = make_cell_fans(volume.side)[static_cast<std::size_t>(cell)];
+    const Vec3f direction = direction_of(volume, fan[0]);
+    const float radius = kDomeShare * frame.facts.diagonal;
+    const Vec3f start = volume.position + 0.01f * radius * volume.normal;
+    const Hit hit = BvhIntersector{frame.scene->view()}.closest_hit({.origin = start, .direction = direction});
+    draw_scene_line(out, projection, start, start + (hit.found() ? hit.t : 10.0f * radius) * direction,
+                    IM_COL32(255, 255, 255, 220), em(0.12f));
+}
+
+}  // namespace
+
+void draw_hemisphere(ViewerModel& model, const Rect& image) {
+    if (!model.window().hemisphere || model.frame() == nullptr) return;
+    const std::vector<ShownVolume> volumes = shown_volumes(model);
+    if (volumes.empty()) return;
+    const PublishedFrame& frame = *model.frame();
+    const Snapshot& snapshot = frame.snapshot;
+    const Projection projection(snapshot.camera, snapshot.width, snapshot.height, image);
+    ImDrawList& out = *ImGui::GetBackgroundDrawList();
+    out.PushClipRect({image.x, image.y}, {image.x + image.width, image.y + image.height});
+    draw_shapes(out, frame, projection, volumes,
+                {.range = shown_range(model, volumes),
+                 .shape = model.window().lobe_shape,
+                 .quantity = model.window().cell_display.quantity});
+    for (const ShownVolume& shown : volumes)
+        if (shown.is_selected)
+            draw_hovered_ray(out, frame, projection, *shown.volume, model.selection().hovered_cell());
+    out.PopClipRect();
+}
+
+void draw_flowers(ViewerModel& model, const Rect& image) {
+    if (!model.flowers().is_shown() || model.frame() == nullptr) return;
+    ImDrawList& out = *ImGui::GetBackgroundDrawList();
+    out.PushClipRect({image.x, image.y}, {image.x + image.width, image.y + image.height});
+    draw_mesh(out, model.flowers().mesh(*model.frame(), image));
+    out.PopClipRect();
+}
+
+namespace {
+
+/// The numbers of a path's vertices, at their positions.
+void draw_numbers(ImDrawList& out, const diagnose::PathRecord& path, const Projection& projection) {
+    for (std::size_t i = 0; i < path.vertices.size(); ++i) {
+        if (path.vertices[i].is_escape) continue;
+        const auto point = projection(path.vertices[i].position);
+        if (!point) continue;
+        const ImVec2 at{point->window.x, point->window.y};
+        const std::string text = fmt::format("{}", i);
+        out.AddCircleFilled(at, em(0.28f), IM_COL32(0, 0, 0, 220));
+        out.AddCircleFilled(at, em(0.18f), IM_COL32_WHITE);
+        const ImVec2 corner{at.x + em(0.35f), at.y - em(1.1f)};
+        out.AddText({corner.x + 1.0f, corner.y + 1.0f}, IM_COL32_BLACK, text.c_str());
+        out.AddText(corner, IM_COL32_WHITE, text.c_str());
+    }
+}
+
+/// In short pieces: without a graphics card a line costs every pixel of the rectangle that it crosses.
+void draw_stroke(ImDrawList& out, const Stroke& stroke) {
+    constexpr float kPiecePixels = 24.0f;
+    constexpr float kMostPieces = 256.0f;  // of a stroke that reaches far out of the window
+    const Vec2f along = stroke.to - stroke.from;
+    const int pieces = static_cast<int>(std::clamp(glm::length(along) / kPiecePixels, 1.0f, kMostPieces));
+    const auto at = [&](int piece) {
+        const float share = static_cast<float>(piece) / static_cast<float>(pieces);
+        return ImVec2{stroke.from.x + share * along.x, stroke.from.y + share * along.y};
+    };
+    for (int piece = 0; piece < pieces; ++piece) out.AddLine(at(piece), at(piece + 1), stroke.color, stroke.width_px);
+}
+
+}  // namespace
+
+void draw_strokes(ImDrawList& out, std::span<const PathPiece> pieces, const Projection& projection,
+                  const diagnose::PathRecord* numbered) {
+    for (const Stroke& stroke : strokes_of(pieces, projection, em(1.0f) / kFontPixels)) draw_stroke(out, stroke);
+    if (numbered != nullptr) draw_numbers(out, *numbered, projection);
+}
+
+void draw_path_lines(ViewerModel& model, const Rect& image) {
+    PathExplorer& explorer = model.paths();
+    if (!explorer.is_shown() || explorer.paths() == nullptr || model.frame() == nullptr) return;
+    const PublishedFrame& frame = *model.frame();
+    const Snapshot& snapshot = frame.snapshot;
+    const Projection projection(snapshot.camera, snapshot.width, snapshot.height, image);
+    ImDrawList& out = *ImGui::GetBackgroundDrawList();
+    out.PushClipRect({image.x, image.y}, {image.x + image.width, image.y + image.height});
+    const auto selected = explorer.selected();
+    draw_strokes(out, explorer.pieces(frame), projection, selected ? &explorer.listed()[*selected] : nullptr);
+    out.PopClipRect();
+}
+
+namespace {
+
+/// A triangle up for a gain, one down for a loss, a disc for no difference, a ring where nothing is known.
+void draw_mark(ImDrawList& out, ImVec2 center, float radius, Verdict verdict) {
+    const ImU32 color = to_imgui_color(mark_color(verdict));
+    out.AddCircleFilled(center, 1.35f * radius, IM_COL32(0, 0, 0, 170));
+    const float sign = verdict == Verdict::Faster ? -1.0f : 1.0f;
+    if (verdict == Verdict::Faster || verdict == Verdict::Slower)
+        out.AddTriangleFilled({center.x, center.y + sign * radius},
+                              {center.x - 0.87f * radius, center.y - 0.5f * sign * radius},
+                              {center.x + 0.87f * radius, center.y - 0.5f * sign * radius}, color);
+    else if (verdict == Verdict::NoDifference)
+        out.AddCircleFilled(center, 0.7f * radius, color);
+    else
+        out.AddCircle(center, 0.7f * radius, color, 0, em(0.1f));
+}
+
+}  // namespace
+
+void draw_gain_marks(const ViewerModel& model, const Rect& image) {
+    const TileGains* gains = model.gain_marks().gains();
+    if (gains == nullptr) return;
+    ImDrawList& out = *ImGui::GetBackgroundDrawList();
+    const float width = image.width / static_cast<float>(gains->columns);
+    const float height = image.height / static_cast<float>(gains->rows);
+    const float radius = std::min(em(0.6f), 0.2f * std::min(width, height));
+    out.PushClipRect({image.x, image.y}, {image.x + image.width, image.y + image.height});
+    for (std::size_t i = 0; i < gains->tiles.size(); ++i) {
+        const auto columns = static_cast<std::size_t>(gains->columns);
+        draw_mark(out,
+                  {image.x + (static_cast<float>(i % columns) + 0.5f) * width,
+                   image.y + (static_cast<float>(i / columns) + 0.5f) * height},
+                  radius, verdict_of(gains->tiles[i]));
+    }
+    out.PopClipRect();
 }
 
 }  // namespace pl::ui

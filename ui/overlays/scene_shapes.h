@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "ui/draw/imgui_compat.h"
+#include "ui/draw/imgui_draw.h"
 #include "ui/draw/lobes.h"
 #include "ui/draw/path_lines.h"
 #include "ui/model/shown_volumes.h"

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "ui/draw/gui_memory.h"
+#include "ui/draw/imgui_draw.h"
 #include "ui/draw/widgets.h"
 #include "ui/input/perform_action.h"
 #include "ui/overlays/overlays.h"

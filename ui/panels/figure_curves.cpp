@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "ui/draw/curve.h"
+#include "ui/draw/draw_list.h"
 #include "ui/draw/value_text.h"
 #include "ui/draw/widgets.h"
 #include "ui/model/shown_volumes.h"

@@ -27,7 +27,7 @@ std::string vector_text(Vec3f v) { return fmt::format("{:.4g}  {:.4g}  {:.4g}", 
 std::string radiance_text(Vec3f v) { return fmt::format("{:.5g}  {:.5g}  {:.5g}", v.x, v.y, v.z); }
 
 /// The surface under the center of a pixel, by a ray of the window's thread: the render thread need not answer.
-std::optional<PickedPoint> surface_under(const PublishedFrame& frame, const HoveredPixel& pixel) {
+std::optional<PickedPoint> surface_under(const PublishedFrame& frame, const PixelPosition& pixel) {
     const Snapshot& snapshot = frame.snapshot;
     const Camera camera = make_camera(snapshot.camera, snapshot.width, snapshot.height);
     const Ray ray = generate_ray(camera, {static_cast<float>(pixel.x) + 0.5f, static_cast<float>(pixel.y) + 0.5f},
@@ -60,7 +60,7 @@ std::array<int, 3> shown_code(const PublishedFrame& frame, Vec3f value) {
     return code;
 }
 
-void draw_pixel_values(const PublishedFrame& frame, const HoveredPixel& pixel) {
+void draw_pixel_values(const PublishedFrame& frame, const PixelPosition& pixel) {
     const Snapshot& snapshot = frame.snapshot;
     if (!frame.has_values()) return;  // the next frame brings them
     const std::size_t index = static_cast<std::size_t>(pixel.y) * static_cast<std::size_t>(snapshot.width) +
@@ -85,7 +85,7 @@ void draw_pixel_values(const PublishedFrame& frame, const HoveredPixel& pixel) {
                        {ImGui::GetContentRegionAvail().x, em(2.0f)});
 }
 
-void draw_surface(const PublishedFrame& frame, const HoveredPixel& pixel) {
+void draw_surface(const PublishedFrame& frame, const PixelPosition& pixel) {
     const std::optional<PickedPoint> point = surface_under(frame, pixel);
     if (!point) {
         faint_text("The ray leaves the scene.");
@@ -105,7 +105,7 @@ void draw_surface(const PublishedFrame& frame, const HoveredPixel& pixel) {
 
 }  // namespace
 
-void draw_pixel_tab(ViewerModel& model, const std::optional<HoveredPixel>& hovered) {
+void draw_pixel_tab(ViewerModel& model, const std::optional<PixelPosition>& hovered) {
     draw_histogram(model);
     if (!section("Under the pointer", true)) return;
     const PublishedFrame* frame = model.frame();
@@ -140,7 +140,7 @@ void draw_log_tab(const ViewerModel& model) {
     ImGui::EndChild();
 }
 
-void draw_knowledge_panel(ViewerModel& model, const Layout& layout, const std::optional<HoveredPixel>& hovered) {
+void draw_knowledge_panel(ViewerModel& model, const Layout& layout, const std::optional<PixelPosition>& hovered) {
     model.selection().hover_cell(-1);  // the volume tab sets it again if it is in front
     begin_fixed_window("knowledge", layout.right);
     const bool research = is_research(model);

@@ -8,15 +8,9 @@
 
 namespace pl::ui {
 
-/// The pixel under the pointer, for the pixel tab.
-struct HoveredPixel {
-    int x = 0;  ///< in the picture in the window
-    int y = 0;
-};
-
 void draw_menu_bar(ViewerModel& model, const Layout& layout);
 void draw_settings_panel(ViewerModel& model, const Layout& layout);
-void draw_knowledge_panel(ViewerModel& model, const Layout& layout, const std::optional<HoveredPixel>& hovered);
+void draw_knowledge_panel(ViewerModel& model, const Layout& layout, const std::optional<PixelPosition>& hovered);
 void draw_accuracy_panel(ViewerModel& model, const Layout& layout);
 void draw_status_bar(ViewerModel& model, const Layout& layout);
 /// The borders between panels and picture: dragged they change sizes, their arrows fold the panels.
@@ -37,7 +31,7 @@ void draw_histogram(ViewerModel& model);
 void draw_volume_tab(ViewerModel& model);
 void draw_material_tab(ViewerModel& model);
 void draw_effects_tab(const ViewerModel& model);
-void draw_pixel_tab(ViewerModel& model, const std::optional<HoveredPixel>& hovered);
+void draw_pixel_tab(ViewerModel& model, const std::optional<PixelPosition>& hovered);
 void draw_statistics_tab(const ViewerModel& model);
 void draw_paths_tab(ViewerModel& model);
 /// A part of that tab: the noise of its pixel.

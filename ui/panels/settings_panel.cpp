@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 
 #include "core/session/choices.h"
+#include "ui/draw/value_text.h"
 #include "ui/draw/widgets.h"
-#include "ui/draw/words.h"
 #include "ui/input/perform_action.h"
 #include "ui/model/window_choices.h"
 #include "ui/panels/panels.h"

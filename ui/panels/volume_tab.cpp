@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include "ui/draw/method_keys.h"
 #include "ui/draw/value_text.h"
 #include "ui/draw/widgets.h"
 #include "ui/model/window_choices.h"

@@ -97,7 +97,7 @@ void AccuracyModel::make_lines() {
         lines_.push_back({.run = run->number,
                           .name = name_of(label),
                           .color = info_of(label.method).color,
-                          .style = style_of(label),
+                          .is_dashed = is_dashed(label),
                           .marker = marker_of(label),
                           .comparable = comparable,
                           .hidden = hidden_.count(run->number) > 0,

@@ -6,8 +6,8 @@
 #include <set>
 #include <vector>
 
-#include "ui/plot/cursor_table.h"
 #include "ui/plot/plot_lines.h"
+#include "ui/plot/run_lines.h"
 #include "ui/plot/run_table.h"
 
 namespace pl::ui {

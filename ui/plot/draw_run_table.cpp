@@ -8,7 +8,6 @@
 
 #include "ui/draw/value_text.h"
 #include "ui/draw/widgets.h"
-#include "ui/plot/draw_plot.h"
 #include "ui/plot/plot_widget.h"
 
 namespace pl::ui {

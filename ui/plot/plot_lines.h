@@ -21,7 +21,7 @@ struct PlotLine {
     std::uint64_t run = 0;
     std::string name;
     std::uint32_t color = 0;  ///< opaque ARGB
-    LineStyle style = LineStyle::Full;
+    bool is_dashed = false;
     PlotMarker marker;
     bool comparable = true;  ///< of the picture in the window; others are gray
     bool hidden = false;

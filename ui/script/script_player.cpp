@@ -7,8 +7,7 @@
 #include <SDL.h>
 
 #include "core/base/error.h"
-#include "ui/draw/gui_memory.h"
-#include "ui/draw/imgui_compat.h"
+#include "ui/draw/imgui_draw.h"
 #include "ui/model/viewer_model.h"
 #include "ui/script/script_values.h"
 
@@ -83,9 +82,12 @@ bool ScriptPlayer::wait(const ScriptCommand& command, const ViewerModel& model, 
         return true;
     }
     const std::uint64_t passes = model.status().all_passes;
-    if (!waiting_since_) waiting_since_ = {passes, seconds};
-    const std::uint64_t waited = passes - waiting_since_->passes;
-    if (waited < command.most_passes && seconds - waiting_since_->seconds < kHangSeconds) return false;
+    if (!waiting_since_) {
+        waiting_since_ = seconds;
+        passes_before_wait_ = passes;
+    }
+    const std::uint64_t waited = passes - passes_before_wait_;
+    if (waited < command.most_passes && seconds - *waiting_since_ < kHangSeconds) return false;
     throw Error(ErrorKind::Runtime,
                 fmt::format("{}: waited {} for {} {} {}, got '{}'", command.where,
                             waited < command.most_passes ? fmt::format("{:.0f} s and {} passes", kHangSeconds, waited)

@@ -56,13 +56,9 @@ private:
     std::size_t next_ = 0;
     int frame_ = 0;
     std::optional<Monkey> monkey_;
-    int monkey_frames_ = 0;  ///< in which random input was played
-    /// The moment at which a wait began.
-    struct Moment {
-        std::uint64_t passes;  ///< WorkerStatus::all_passes
-        double seconds;        ///< of the real time
-    };
-    std::optional<Moment> waiting_since_;
+    int monkey_frames_ = 0;                  ///< in which random input was played
+    std::optional<double> waiting_since_;    ///< seconds of the real time at which a wait began
+    std::uint64_t passes_before_wait_ = 0;   ///< WorkerStatus::all_passes then
     std::uint64_t messages_before_ = 0;      ///< the last input
     std::optional<ScriptCommand> aimed_at_;  ///< the control under the pointer
     std::vector<KeyStroke> tapped_;          ///< keys that go up in the next frame

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/session/backend.h"
-#include "ui/draw/imgui_compat.h"
+#include "ui/draw/imgui_draw.h"
 #include "ui/model/viewer_model.h"
 #include "ui/model/window_memory.h"
 #include "ui/script/overlay_values.h"

@@ -1,5 +1,9 @@
 #include "ui/window/display.h"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
 #include <cstdlib>
 #include <cstring>
 #include <vector>
@@ -8,10 +12,111 @@
 #include <SDL.h>
 
 #include "core/base/error.h"
-#include "ui/window/icon.h"
 #include "ui/window/offscreen.h"
 
 namespace pl::ui {
+namespace {
+
+/// The window at scale 1.
+constexpr float kDesignWidth = 1440.0f;
+constexpr float kDesignHeight = 900.0f;
+/// Least screen per unit of scale: there panels and picture stand side by side.
+constexpr float kRoomyWidth = 1280.0f;
+constexpr float kRoomyHeight = 720.0f;
+/// Height of a title bar at scale 1, which a window's size does not count.
+constexpr float kTitleBar = 36.0f;
+/// Density that controls of the design size are made for.
+constexpr float kDesignDotsPerInch = 96.0f;
+
+float scale_for(const Screen& screen) {
+    const auto width = static_cast<float>(screen.width);
+    const auto height = static_cast<float>(screen.height);
+    const float most =
+        std::min({screen.dots_per_inch / kDesignDotsPerInch, width / kRoomyWidth, height / kRoomyHeight});
+    return std::clamp(std::floor(2.0f * most) / 2.0f, 1.0f, kMostUiScale);
+}
+
+int fit(float wanted, float usable) {
+    return static_cast<int>(std::round(usable > 0.0f ? std::min(wanted, usable) : wanted));
+}
+
+int overlap(int a, int a_size, int b, int b_size) {
+    return std::max(std::min(a + a_size, b + b_size) - std::max(a, b), 0);
+}
+
+/// Whether the upper edge is on the screen, over a length that a pointer can grab.
+bool can_be_grabbed(const WindowPlace& place, const ScreenArea& screen) {
+    constexpr int kLeastGrip = 64;
+    return place.y >= screen.y && place.y + kLeastGrip <= screen.y + screen.height &&
+           overlap(place.x, place.width, screen.x, screen.width) >= kLeastGrip;
+}
+
+long long shared_pixels(const WindowPlace& place, const ScreenArea& screen) {
+    return static_cast<long long>(overlap(place.x, place.width, screen.x, screen.width)) *
+           overlap(place.y, place.height, screen.y, screen.height);
+}
+
+}  // namespace
+
+WindowPlace place_on_screens(WindowPlace wanted, std::span<const ScreenArea> screens) {
+    wanted.width = std::max(wanted.width, kLeastWindowWidth);
+    wanted.height = std::max(wanted.height, kLeastWindowHeight);
+    if (screens.empty()) return wanted;
+    const ScreenArea& screen =
+        *std::ranges::max_element(screens, {}, [&](const ScreenArea& area) { return shared_pixels(wanted, area); });
+    wanted.width = std::min(wanted.width, screen.width);
+    wanted.height = std::min(wanted.height, screen.height);
+    if (can_be_grabbed(wanted, screen)) return wanted;
+    wanted.x = std::clamp(wanted.x, screen.x, screen.x + screen.width - wanted.width);
+    wanted.y = std::clamp(wanted.y, screen.y, screen.y + screen.height - wanted.height);
+    return wanted;
+}
+
+WindowOptions plan_window(const WindowOptions& options, const Screen& screen) {
+    const float scale = options.ui_scale > 0.0f ? options.ui_scale : scale_for(screen);
+    if (options.width > 0 && options.height > 0) return {options.width, options.height, scale};
+    const float title_bar = kTitleBar * scale;
+    return {.width = fit(kDesignWidth * scale, static_cast<float>(screen.width)),
+            .height = fit(kDesignHeight * scale, static_cast<float>(screen.height) - title_bar),
+            .ui_scale = scale};
+}
+
+namespace {
+
+constexpr int kSize = 64;
+
+/// A box seen from the front: red and green walls, a lamp, and light that fades downwards.
+std::uint32_t icon_pixel(int x, int y) {
+    constexpr int kInset = 14;
+    const int edge = std::min({x, y, kSize - 1 - x, kSize - 1 - y});
+    if (edge < 2) return 0xff101216u;
+    const bool side = (x < kInset && x <= y && x <= kSize - 1 - y) ||
+                      (x >= kSize - kInset && kSize - 1 - x <= y && kSize - 1 - x <= kSize - 1 - y);
+    const int light = std::clamp(232 - 2 * y, 60, 255);
+    const auto shade = [&](int r, int g, int b) {
+        return 0xff000000u | static_cast<std::uint32_t>(r * light / 255) << 16 |
+               static_cast<std::uint32_t>(g * light / 255) << 8 | static_cast<std::uint32_t>(b * light / 255);
+    };
+    if (y >= 5 && y < 10 && x >= 24 && x < 40) return 0xfffff6d8u;
+    if (side) return x < kSize / 2 ? shade(220, 48, 40) : shade(64, 178, 72);
+    if (x >= 22 && x < 34 && y >= 30 && y < 52) return shade(150, 146, 138);
+    if (x >= 36 && x < 46 && y >= 42 && y < 54) return shade(176, 170, 160);
+    return shade(232, 226, 214);
+}
+
+}  // namespace
+
+void set_window_icon(SDL_Window* window) {
+    std::array<std::uint32_t, static_cast<std::size_t>(kSize) * kSize> pixels;
+    for (int y = 0; y < kSize; ++y)
+        for (int x = 0; x < kSize; ++x) pixels[static_cast<std::size_t>(y * kSize + x)] = icon_pixel(x, y);
+    SDL_Surface* surface =
+        SDL_CreateRGBSurfaceWithFormatFrom(pixels.data(), kSize, kSize, 32, kSize * 4, SDL_PIXELFORMAT_ARGB8888);
+    if (surface == nullptr) return;
+    SDL_SetWindowIcon(window, surface);
+    SDL_FreeSurface(surface);
+}
+
 namespace {
 
 bool is_set(const char* variable) {
@@ -170,6 +275,6 @@ std::optional<WindowPlace> Display::place(const std::optional<WindowPlace>& befo
     return now;
 }
 
-ScreenPixels Display::read_pixels() const { return ui::read_pixels(renderer_); }
+ByteImage Display::read_pixels() const { return ui::read_pixels(renderer_); }
 
 }  // namespace pl::ui

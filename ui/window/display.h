@@ -2,9 +2,54 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 
-#include "ui/window/window_plan.h"
+#include "ui/model/window_state.h"
+#include "ui/viewer.h"
+
+namespace pl::ui {
+
+// Size of the window and scale of its text on a screen.
+
+/// The part of a screen that windows may cover.
+struct Screen {
+    int width = 0;  ///< in pixels; 0: unknown
+    int height = 0;
+    float dots_per_inch = 0.0f;  ///< 0: unknown, or the desktop enlarges windows itself
+};
+
+/// The usable part of one of several screens.
+struct ScreenArea {
+    int x = 0;
+    int y = 0;
+    int width = 0;
+    int height = 0;
+};
+
+/// Smallest window in which all panels can be reached.
+inline constexpr int kLeastWindowWidth = 640;
+inline constexpr int kLeastWindowHeight = 400;
+
+/// The place itself if its upper edge can be grabbed on one of the screens; else the nearest place inside the screen
+/// that it overlaps most, the first one if none. No larger than that screen.
+WindowPlace place_on_screens(WindowPlace wanted, std::span<const ScreenArea> screens);
+
+/// The scale grows in halves with the density of the screen, as long as the panels have room; the window is
+/// 1440 x 900 times the scale, or as much of it as fits the screen. A requested size is taken as it is.
+WindowOptions plan_window(const WindowOptions& options, const Screen& screen);
+
+}  // namespace pl::ui
+
+struct SDL_Window;
+
+namespace pl::ui {
+
+// The window's icon, drawn by the program.
+
+void set_window_icon(SDL_Window* window);
+
+}  // namespace pl::ui
 
 struct SDL_Window;
 struct SDL_Renderer;
@@ -49,7 +94,7 @@ public:
     /// Of the window now. In full screen and minimized that is `before`.
     std::optional<WindowPlace> place(const std::optional<WindowPlace>& before) const;
     /// The pixels drawn since the last present; slow.
-    ScreenPixels read_pixels() const;
+    ByteImage read_pixels() const;
 
 private:
     bool open(const std::string& title, bool software);
@@ -57,7 +102,7 @@ private:
     void close();
 
     VideoSubsystem video_;
-    WindowPlan plan_;
+    WindowOptions plan_;
     std::optional<WindowPlace> place_;
     SDL_Window* window_ = nullptr;
     SDL_Renderer* renderer_ = nullptr;

@@ -1,8 +1,7 @@
 #include "ui/window/image_layer.h"
 
 #include "core/base/error.h"
-#include "core/diagnose/mark_diagnostics.h"
-#include "ui/draw/cell_tint.h"
+#include "core/diagnose/diagnostics.h"
 #include "ui/draw/picture.h"
 
 namespace pl::ui {

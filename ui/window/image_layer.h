@@ -3,10 +3,10 @@
 
 #include <memory>
 
-#include "ui/draw/magnifier.h"
+#include "ui/draw/picture_zoom.h"
 #include "ui/draw/stream_texture.h"
 #include "ui/model/viewer_model.h"
-#include "ui/worker/cell_colors.h"
+#include "ui/worker/cell_image.h"
 
 namespace pl::ui {
 

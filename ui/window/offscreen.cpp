@@ -14,8 +14,8 @@ namespace {
 
 }  // namespace
 
-ScreenPixels read_pixels(SDL_Renderer* renderer) {
-    ScreenPixels pixels;
+ByteImage read_pixels(SDL_Renderer* renderer) {
+    ByteImage pixels;
     SDL_GetRendererOutputSize(renderer, &pixels.width, &pixels.height);
     pixels.rgb.resize(static_cast<std::size_t>(pixels.width) * static_cast<std::size_t>(pixels.height) * 3);
     if (SDL_RenderReadPixels(renderer, nullptr, SDL_PIXELFORMAT_RGB24, pixels.rgb.data(), pixels.width * 3) != 0)
@@ -72,7 +72,7 @@ ByteImage Offscreen::paint(const std::uint32_t* background, const std::function<
     ImGui::End();
     ImGui::Render();
     draw_->draw(*ImGui::GetDrawData());
-    ScreenPixels pixels = read_pixels(renderer_);
+    ByteImage pixels = read_pixels(renderer_);
     return {.width = pixels.width, .height = pixels.height, .rgb = std::move(pixels.rgb)};
 }
 

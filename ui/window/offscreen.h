@@ -6,7 +6,6 @@
 #include <memory>
 
 #include "core/io/image.h"
-#include "ui/draw/gui_memory.h"
 #include "ui/draw/imgui_draw.h"
 #include "ui/viewer.h"
 
@@ -16,7 +15,7 @@ struct SDL_Surface;
 namespace pl::ui {
 
 /// The pixels of a renderer's target. Throws Error(Runtime).
-ScreenPixels read_pixels(SDL_Renderer* renderer);
+ByteImage read_pixels(SDL_Renderer* renderer);
 
 class Offscreen {
 public:

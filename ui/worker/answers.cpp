@@ -7,7 +7,7 @@ namespace pl::ui {
 PickAnswer answer_pick(Session& session, Vec2f image_point) {
     const RenderSettings& settings = session.settings();
     PickAnswer answer;
-    answer.point =
+    answer.value =
         session.pick(image_point * Vec2f{static_cast<float>(settings.width), static_cast<float>(settings.height)});
     return answer;
 }
@@ -15,7 +15,7 @@ PickAnswer answer_pick(Session& session, Vec2f image_point) {
 LearnedAnswer answer_learned(const Session& session, MethodId method) {
     LearnedAnswer answer;
     try {
-        answer.field = std::make_shared<const LearnedField>(session.export_field(method));
+        answer.value = std::make_shared<const LearnedField>(session.export_field(method));
     } catch (const Error& error) {
         if (error.kind() != ErrorKind::Usage) throw;
         answer.reason = error.what();
@@ -26,7 +26,7 @@ LearnedAnswer answer_learned(const Session& session, MethodId method) {
 PathsAnswer answer_paths(const Session& session, FilmSlot slot, std::uint64_t generation) {
     PathsAnswer answer{.generation = generation};
     try {
-        answer.passes = std::make_shared<diagnose::PassPair>(diagnose::pass_pair(session, slot));
+        answer.value = std::make_shared<diagnose::PassPair>(diagnose::pass_pair(session, slot));
     } catch (const std::exception& error) {
         answer.reason = error.what();
     }
@@ -39,14 +39,14 @@ GainAnswer answer_gain(const Session& session, FilmSlot slot) {
     for (const FilmSlot& needed : {base, method})
         if (session.passes(needed) < 2)
             return {.reason = std::string(info_of(needed.method).label) + " has no picture to compare with yet"};
-    return {.base = std::make_shared<const Snapshot>(session.snapshot_with_halves(base)),
-            .method = std::make_shared<const Snapshot>(session.snapshot_with_halves(method))};
+    return {.value = {std::make_shared<const Snapshot>(session.snapshot_with_halves(base)),
+                      std::make_shared<const Snapshot>(session.snapshot_with_halves(method))}};
 }
 
 DiagnosticsAnswer answer_diagnostics(const Session& session, FilmSlot slot, std::uint64_t generation) {
     DiagnosticsAnswer answer{.generation = generation};
     try {
-        answer.source = diagnose::diagnostics_input(session, slot);
+        answer.value = diagnose::diagnostics_input(session, slot);
     } catch (const std::exception& error) {
         answer.reason = error.what();
     }

@@ -1,12 +1,21 @@
 // The image of the volumes' cells that lies over the picture: rendered when the volumes or the camera have changed.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 
 #include "core/session/session.h"
 #include "ui/worker/published_frame.h"
 
 namespace pl::ui {
+
+// The colors of the radiance volumes' cells in the picture of View::Voronoi.
+
+/// `colors` is a frame of View::Voronoi.
+CellImage make_cell_image(const DisplayFrame& colors);
+
+/// The color of a volume's cell in such a frame. `codes` are those of ToneCurve::Clamp.
+std::uint32_t cell_color(std::int32_t volume, const ToneCodes& codes);
 
 class CellRenderer {
 public:

@@ -1,7 +1,5 @@
 #include "ui/worker/outbox.h"
 
-#include <utility>
-
 namespace pl::ui {
 
 std::shared_ptr<const PublishedFrame> Outbox::latest() {
@@ -23,31 +21,6 @@ std::shared_ptr<const LiveRunSet> Outbox::runs() const {
 std::vector<WorkerMessage> Outbox::take_messages() {
     const std::lock_guard lock(mutex_);
     return std::exchange(messages_, {});
-}
-
-std::optional<PickAnswer> Outbox::take_pick() {
-    const std::lock_guard lock(mutex_);
-    return std::exchange(pick_, std::nullopt);
-}
-
-std::optional<LearnedAnswer> Outbox::take_learned() {
-    const std::lock_guard lock(mutex_);
-    return std::exchange(learned_, std::nullopt);
-}
-
-std::optional<DiagnosticsAnswer> Outbox::take_diagnostics() {
-    const std::lock_guard lock(mutex_);
-    return std::exchange(diagnostics_, std::nullopt);
-}
-
-std::optional<PathsAnswer> Outbox::take_paths() {
-    const std::lock_guard lock(mutex_);
-    return std::exchange(paths_, std::nullopt);
-}
-
-std::optional<GainAnswer> Outbox::take_gain() {
-    const std::lock_guard lock(mutex_);
-    return std::exchange(gain_, std::nullopt);
 }
 
 std::shared_ptr<const FieldHistory> Outbox::history() const {
@@ -86,31 +59,6 @@ void Outbox::set_runs(std::shared_ptr<const LiveRunSet> runs) {
 void Outbox::report(WorkerMessage message) {
     const std::lock_guard lock(mutex_);
     messages_.push_back(std::move(message));
-}
-
-void Outbox::answer(PickAnswer answer) {
-    const std::lock_guard lock(mutex_);
-    pick_ = answer;
-}
-
-void Outbox::answer(LearnedAnswer answer) {
-    const std::lock_guard lock(mutex_);
-    learned_ = std::move(answer);
-}
-
-void Outbox::answer(DiagnosticsAnswer answer) {
-    const std::lock_guard lock(mutex_);
-    diagnostics_ = std::move(answer);
-}
-
-void Outbox::answer(PathsAnswer answer) {
-    const std::lock_guard lock(mutex_);
-    paths_ = std::move(answer);
-}
-
-void Outbox::answer(GainAnswer answer) {
-    const std::lock_guard lock(mutex_);
-    gain_ = std::move(answer);
 }
 
 void Outbox::set_history(std::shared_ptr<const FieldHistory> history) {

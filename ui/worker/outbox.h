@@ -4,6 +4,8 @@
 #include <atomic>
 #include <exception>
 #include <mutex>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 #include "core/measure/live_runs.h"
@@ -16,18 +18,19 @@ class Outbox {
 public:
     explicit Outbox(WorkerStatus status) : status_(std::move(status)) {}
 
-    // By any thread; take_...() returns an answer once.
+    // By any thread.
 
     std::shared_ptr<const PublishedFrame> latest();
     std::uint64_t frame_count() const { return frame_count_.load(std::memory_order_acquire); }
     WorkerStatus status() const;
     std::shared_ptr<const LiveRunSet> runs() const;
     std::vector<WorkerMessage> take_messages();
-    std::optional<PickAnswer> take_pick();
-    std::optional<LearnedAnswer> take_learned();
-    std::optional<DiagnosticsAnswer> take_diagnostics();
-    std::optional<PathsAnswer> take_paths();
-    std::optional<GainAnswer> take_gain();
+    /// The newest answer of its kind, once.
+    template <class Kind>
+    std::optional<Kind> take() {
+        const std::lock_guard lock(mutex_);
+        return std::exchange(std::get<std::optional<Kind>>(answers_), std::nullopt);
+    }
     std::shared_ptr<const FieldHistory> history() const;  ///< never null
     std::exception_ptr failure() const;
 
@@ -40,11 +43,11 @@ public:
     void set_status(const WorkerStatus& status);
     void set_runs(std::shared_ptr<const LiveRunSet> runs);
     void report(WorkerMessage message);
-    void answer(PickAnswer answer);
-    void answer(LearnedAnswer answer);
-    void answer(DiagnosticsAnswer answer);
-    void answer(PathsAnswer answer);
-    void answer(GainAnswer answer);
+    template <class Kind>
+    void answer(Kind answer) {
+        const std::lock_guard lock(mutex_);
+        std::get<std::optional<Kind>>(answers_) = std::move(answer);
+    }
     void set_history(std::shared_ptr<const FieldHistory> history);
     /// The error that ended the thread.
     void fail(std::exception_ptr failure);
@@ -54,11 +57,9 @@ private:
     WorkerStatus status_;
     std::shared_ptr<const LiveRunSet> runs_;
     std::vector<WorkerMessage> messages_;
-    std::optional<PickAnswer> pick_;
-    std::optional<LearnedAnswer> learned_;
-    std::optional<DiagnosticsAnswer> diagnostics_;
-    std::optional<PathsAnswer> paths_;
-    std::optional<GainAnswer> gain_;
+    std::tuple<std::optional<PickAnswer>, std::optional<LearnedAnswer>, std::optional<DiagnosticsAnswer>,
+               std::optional<PathsAnswer>, std::optional<GainAnswer>>
+        answers_;
     std::shared_ptr<const FieldHistory> history_ = std::make_shared<const FieldHistory>();
     std::shared_ptr<const PublishedFrame> frame_;
     bool is_frame_taken_ = true;

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "core/diagnose/find_diagnostics.h"
+#include "core/diagnose/diagnostics.h"
 #include "core/diagnose/pixel_paths.h"
 #include "core/scene/default_light.h"
 #include "core/scene/pack_scene.h"
@@ -17,7 +17,7 @@
 
 namespace pl::ui {
 
-/// The radiance volume that serves each pixel, as display colors of color_of_id(); see ui/worker/cell_colors.h.
+/// The radiance volume that serves each pixel, as display colors of color_of_id(); see ui/worker/cell_image.h.
 struct CellImage {
     int width = 0;
     int height = 0;
@@ -104,36 +104,23 @@ struct WorkerMessage {
     std::string text;
 };
 
-/// Answer to RenderWorker::request_learned.
-struct LearnedAnswer {
-    std::shared_ptr<const LearnedField> field;  ///< null if there is none
-    std::string reason;                         ///< for the lack of one
+/// Answer to a question of the window about the session.
+template <class Value>
+struct Answer {
+    Value value{};                 ///< empty if there is none
+    std::string reason{};          ///< for the lack of it
+    std::uint64_t generation = 0;  ///< of the newest edit that the picture shows
 };
-
-/// Answer to RenderWorker::request_diagnostics.
-struct DiagnosticsAnswer {
-    std::optional<diagnose::DiagnosticsInput> source{};  ///< empty if the view traces no paths
-    std::string reason{};                                ///< for the lack of it
-    std::uint64_t generation = 0;                        ///< of the newest edit that the picture shows
-};
-
-/// Answer to RenderWorker::request_paths.
-struct PathsAnswer {
-    std::shared_ptr<diagnose::PassPair> passes{};  ///< of the picture; null if its view traces no paths
-    std::string reason{};                          ///< for the lack of it
-    std::uint64_t generation = 0;                  ///< of the newest edit that the picture shows
-};
-
-/// Answer to RenderWorker::request_gain: the pictures of default and of a guided method so far, with their halves.
-struct GainAnswer {
-    std::shared_ptr<const Snapshot> base{};  ///< null if one of both has less than two passes
-    std::shared_ptr<const Snapshot> method{};
-    std::string reason{};  ///< for the lack of them
-};
-
-/// Answer to RenderWorker::request_pick.
-struct PickAnswer {
-    std::optional<PickedPoint> point;
-};
+/// To RenderWorker::request_pick.
+using PickAnswer = Answer<std::optional<PickedPoint>>;
+/// To RenderWorker::request_learned.
+using LearnedAnswer = Answer<std::shared_ptr<const LearnedField>>;
+/// To RenderWorker::request_diagnostics; empty if the view traces no paths.
+using DiagnosticsAnswer = Answer<std::optional<diagnose::DiagnosticsInput>>;
+/// To RenderWorker::request_paths, for the picture; empty if its view traces no paths.
+using PathsAnswer = Answer<std::shared_ptr<diagnose::PassPair>>;
+/// To RenderWorker::request_gain: the pictures so far of default and of a guided method, with their halves; null if one of both has less
+/// than two passes.
+using GainAnswer = Answer<std::array<std::shared_ptr<const Snapshot>, 2>>;
 
 }  // namespace pl::ui

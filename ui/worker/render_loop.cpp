@@ -74,16 +74,15 @@ bool RenderLoop::take_requests() {
 }
 
 bool RenderLoop::has_work() const {
-    const bool is_other = now_.turns.has_value() != turns_.has_value() ||
-                          now_.history_bytes != watched_.history.limit() || now_.reference != runs_.reference() ||
-                          now_.backend != backends_.current();
+    const bool is_other = now_.turns.has_value() != turns_.has_value() || now_.history_bytes != history_.limit() ||
+                          now_.reference != runs_.reference() || now_.backend != backends_.current();
     if (now_.once.has_question() || is_other) return true;
     if (passes() > 0 && frames_.is_stale(now_)) return true;
     if (failed_) return false;
     if (preview_.now() != wanted_preview()) return true;
     const bool size_is_stale = !size_.is_whole() && !is_coarse();
-    return size_is_stale || wants_pass() || frames_.is_asked() || watched_.selected.wants(now_.volume) ||
-           wants_pins() || (now_.cells && !cells_.is_current(*session_));
+    return size_is_stale || wants_pass() || frames_.is_asked() || selected_.wants(now_.volume) || wants_pins() ||
+           (now_.cells && !cells_.is_current(*session_));
 }
 
 /// Begins or ends turns as requested, and reads the time of both methods again: edits may have emptied their films.
@@ -118,8 +117,8 @@ void RenderLoop::apply_edits(const std::vector<WorkerEdit>& edits) {
         failed_ = false;
         if (changes_cells(edit)) cells_.invalidate();
         if (find_edit<EditCamera>(edit)) size_.move_camera();
-        watched_.selected.invalidate();
-        for (Inspection& pin : watched_.pins) pin.invalidate();
+        selected_.invalidate();
+        for (Inspection& pin : pins_) pin.invalidate();
         frames_.ask();
         attempt([&] {
             // Other edits belong to the session's own estimator.
@@ -133,8 +132,8 @@ void RenderLoop::apply_edits(const std::vector<WorkerEdit>& edits) {
 }
 
 void RenderLoop::apply(const WorkerEdit& edit) {
-    if (const auto* method = std::get_if<EditMethod>(&edit)) shown_.method = method->method;
-    if (const auto* view = std::get_if<EditView>(&edit)) shown_.view = view->view;
+    if (const auto* method = std::get_if<MethodId>(&edit)) shown_.method = *method;
+    if (const auto* view = std::get_if<View>(&edit)) shown_.view = *view;
     if (const auto* change = std::get_if<SessionEdit>(&edit)) apply(*change);
 }
 
@@ -241,8 +240,8 @@ void RenderLoop::publish() {
     frame->backend.name = backends_.current();
     frame->facts = facts_;
     frame->cells = now_.cells ? cells_.image(*session_) : nullptr;
-    frame->volume = watched_.selected.volume();
-    for (const Inspection& pin : watched_.pins)
+    frame->volume = selected_.volume();
+    for (const Inspection& pin : pins_)
         if (pin.volume()) frame->pins.push_back(pin.volume());
     size_.note_frame();
     preview_.note_frame();

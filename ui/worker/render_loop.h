@@ -9,7 +9,6 @@
 #include "ui/worker/inbox.h"
 #include "ui/worker/inspection.h"
 #include "ui/worker/method_turns.h"
-#include "ui/worker/motion_preview.h"
 #include "ui/worker/outbox.h"
 #include "ui/worker/picture_size.h"
 #include "ui/worker/recorder.h"
@@ -35,13 +34,6 @@ public:
     void run(const WorkerSetup& setup);
 
 private:
-    /// The parts of the learned field that the window shows.
-    struct Watched {
-        Inspection selected{};
-        std::vector<Inspection> pins{};  ///< in the order of Requests::pins
-        FieldHistoryRecorder history{};
-    };
-
     bool start_session(const WorkerSetup& setup);
     bool take_requests();
     bool has_work() const;
@@ -95,7 +87,11 @@ private:
     MotionPreview preview_;
     Recorder runs_;
     CellRenderer cells_;
-    Watched watched_;
+    // The parts of the learned field that the window shows.
+    Inspection selected_{};
+    std::vector<Inspection> pins_{};  ///< in the order of Requests::pins
+    FieldHistoryRecorder history_{};
+
     FrameSchedule frames_;
     SceneFacts facts_;              ///< of the session's scene
     std::uint64_t all_passes_ = 0;  ///< of every film, since the start

@@ -56,8 +56,8 @@ bool RenderLoop::take_over(const std::exception& error) {
 
 void RenderLoop::backend_changed() {
     failed_ = false;
-    watched_.selected.invalidate();
-    for (Inspection& pin : watched_.pins) pin.invalidate();
+    selected_.invalidate();
+    for (Inspection& pin : pins_) pin.invalidate();
     frames_.ask();
     size_.forget_cost();
     update_status();

@@ -28,27 +28,27 @@ void RenderLoop::answer_questions() {
 
 void RenderLoop::refresh_inspection() {
     if (passes() == 0) return;  // there may be no tables yet
-    const bool is_other = now_.volume != watched_.selected.shown() || wants_pins();
-    bool is_fresh = watched_.selected.refresh(*session_, asked_method(), now_.volume);
-    watched_.pins.resize(now_.pins.size());
-    for (std::size_t i = 0; i < watched_.pins.size(); ++i)
-        is_fresh |= watched_.pins[i].refresh(*session_, asked_method(), now_.pins[i]);
+    const bool is_other = now_.volume != selected_.shown() || wants_pins();
+    bool is_fresh = selected_.refresh(*session_, asked_method(), now_.volume);
+    pins_.resize(now_.pins.size());
+    for (std::size_t i = 0; i < pins_.size(); ++i)
+        is_fresh |= pins_[i].refresh(*session_, asked_method(), now_.pins[i]);
     if (is_fresh && (is_other || !wants_pass())) frames_.ask();
 }
 
 bool RenderLoop::wants_pins() const {
-    if (watched_.pins.size() != now_.pins.size()) return true;
-    for (std::size_t i = 0; i < watched_.pins.size(); ++i)
-        if (watched_.pins[i].wants(now_.pins[i])) return true;
+    if (pins_.size() != now_.pins.size()) return true;
+    for (std::size_t i = 0; i < pins_.size(); ++i)
+        if (pins_[i].wants(now_.pins[i])) return true;
     return false;
 }
 
 /// Key frames of the field, if the window requests them.
 void RenderLoop::observe_field() {
-    const bool is_other = now_.history_bytes != watched_.history.limit();
-    if (is_other) watched_.history.set_limit(now_.history_bytes);
-    const bool has_frame = watched_.history.observe(*session_, asked_method());
-    if (is_other || has_frame) outbox_.set_history(watched_.history.history());
+    const bool is_other = now_.history_bytes != history_.limit();
+    if (is_other) history_.set_limit(now_.history_bytes);
+    const bool has_frame = history_.observe(*session_, asked_method());
+    if (is_other || has_frame) outbox_.set_history(history_.history());
 }
 
 }  // namespace pl::ui

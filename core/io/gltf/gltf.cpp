@@ -6,8 +6,7 @@
 #include <fmt/ranges.h>
 
 #include "core/base/error.h"
-#include "core/io/gltf/cameras.h"
-#include "core/io/gltf/lights.h"
+#include "core/io/gltf/nodes.h"
 #include "core/io/gltf/triangles.h"
 #include "core/scene/far_origin.h"
 

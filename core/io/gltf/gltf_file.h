@@ -9,11 +9,27 @@
 #include <string_view>
 #include <vector>
 
-#include "core/io/gltf/container.h"
 #include "core/io/json_document.h"
-#include "core/io/scene_notes.h"
+#include "core/io/load_settings.h"
 
 namespace pl {
+
+// The outer form of glTF files: JSON text, alone or with a binary chunk; and data that is written into URIs.
+
+struct GltfParts {
+    std::string text;                     ///< JSON
+    std::optional<std::string> binary{};  ///< the chunk of a .glb
+};
+
+/// Takes a .glb apart, known by its first bytes; all other bytes are the text of a .gltf. Throws Error(Input) with the
+/// byte at which a .glb is damaged. [glTF 2.0, section 4]
+GltfParts split_gltf(std::string bytes, const std::filesystem::path& path);
+
+/// The bytes of "data:TYPE;base64,TEXT"; nothing if it is malformed.
+std::optional<std::string> decode_data_uri(std::string_view uri);
+
+/// Resolves escapes such as %20; those that are malformed stay.
+std::string decode_percent(std::string_view uri);
 
 /// All members throw Error(Input) with file, line and JSON pointer for content that breaks the format.
 class GltfFile {

@@ -1,8 +1,14 @@
 #include "core/io/gltf/nodes.h"
 
 #include <algorithm>
+#include <limits>
+#include <optional>
 
 #include <fmt/format.h>
+#include <glm/gtc/constants.hpp>
+
+#include "core/scene/pack_scene.h"
+#include "core/scene/punctual_lights.h"
 
 namespace pl {
 namespace {
@@ -143,6 +149,132 @@ GltfNodes read_nodes(const GltfFile& file, const glm::dvec3& origin) {
     GltfNodes nodes = NodeReader(file).run();
     for (GltfNode& node : nodes.all) node.to_world[3] -= glm::dvec4(origin, 0.0);
     return nodes;
+}
+
+namespace {
+
+/// Distance to a target within or before the scene, so far that eye and target differ as floats.
+double target_distance(const Bounds& bounds, const glm::dvec3& eye, const glm::dvec3& forward) {
+    const glm::dvec3 low(bounds.low);
+    const glm::dvec3 high(bounds.high);
+    const double to_center = glm::dot(0.5 * (low + high) - eye, forward);
+    const double size = glm::length(high - low);
+    const glm::dvec3 away = glm::abs(eye);
+    const double least =
+        64.0 * std::max({away.x, away.y, away.z}) * static_cast<double>(std::numeric_limits<float>::epsilon());
+    return std::max({to_center, 0.1 * size, least});
+}
+
+/// A camera looks along -z of its node. [glTF 2.0, section 3.10]
+std::optional<CameraDescription> place_camera(const GltfNode& node, float fov_deg, const Bounds& bounds) {
+    const glm::dvec3 back(node.to_world[2]);
+    const glm::dvec3 up(node.to_world[1]);
+    if (!(glm::length(back) > 0.0) || !(glm::length(up) > 0.0)) return std::nullopt;
+    const glm::dvec3 eye(node.to_world[3]);
+    const glm::dvec3 forward = -glm::normalize(back);
+    const double distance = target_distance(bounds, eye, forward);
+    CameraDescription camera;
+    camera.eye = glm::vec3(eye);
+    camera.target = glm::vec3(eye + distance * forward);
+    camera.up = glm::vec3(glm::normalize(up));
+    camera.fov_deg = fov_deg;
+    camera.focus_distance = static_cast<float>(distance);
+    return camera;
+}
+
+/// Full vertical angle in degrees.
+float field_of_view(const GltfFile& file, const std::string& at) {
+    const std::string pointer = at + "/perspective/yfov";
+    const double radians = static_cast<double>(file.json().number(pointer).value_or(0.0f));
+    if (!(radians > 0.0 && radians < glm::pi<double>()))
+        file.fail(pointer, fmt::format("expected an angle within (0, pi) radians, got {}", radians));
+    return std::min(static_cast<float>(radians * 180.0 / glm::pi<double>()), 179.9f);
+}
+
+}  // namespace
+
+void add_gltf_cameras(GltfFile& file, const GltfNodes& nodes, SceneDescription& scene) {
+    const Bounds bounds = bounds_of(scene);
+    for (const std::uint32_t number : nodes.shown) {
+        const GltfNode& node = nodes.all[number];
+        if (!node.camera) continue;
+        const std::string at = fmt::format("/cameras/{}", *node.camera);
+        if (file.json().text(at + "/type") != "perspective") {
+            file.note("cameras without perspective are left out", at);
+            continue;
+        }
+        const std::optional<CameraDescription> camera = place_camera(node, field_of_view(file, at), bounds);
+        if (!camera) {
+            file.note("cameras whose node has no extent are left out", at);
+            continue;
+        }
+        scene.cameras.push_back({.name = node.name,
+                                 .camera = *camera,
+                                 .aspect = file.json().number(at + "/perspective/aspectRatio").value_or(0.0f)});
+    }
+}
+
+namespace {
+
+/// Lumens of a watt in files of Blender's exporter, in its default unit.
+constexpr double kLumensPerWatt = 683.0;
+
+/// Radiant intensity of points and spots, irradiance of directional lights.
+glm::vec3 intensity_of(GltfFile& file, const std::string& at) {
+    const double intensity = static_cast<double>(file.json().number(at + "/intensity").value_or(1.0f));
+    const auto color = file.json().numbers(at + "/color", 3);
+    const glm::dvec3 tint = color ? glm::dvec3((*color)[0], (*color)[1], (*color)[2]) : glm::dvec3(1.0);
+    if (!(intensity >= 0.0) || glm::any(glm::lessThan(tint, glm::dvec3(0.0))))
+        file.fail(at, "expected a color and an intensity of at least 0");
+    const bool is_of_blender = file.json().text("/asset/generator").value_or("").find("Blender") != std::string::npos;
+    return glm::vec3(tint * intensity / (is_of_blender ? kLumensPerWatt : 1.0));
+}
+
+/// False if the light has no cone. Cones that glTF does not allow have a meaning nevertheless: the falloff is one of the
+/// cosine, for any angle.
+bool read_cones(GltfFile& file, const std::string& at, PunctualLightDescription& light) {
+    const float inner = file.json().number(at + "/spot/innerConeAngle").value_or(0.0f);
+    const float outer = file.json().number(at + "/spot/outerConeAngle").value_or(glm::quarter_pi<float>());
+    light.outer_deg = std::min(glm::degrees(outer), kMostSpotAngle);
+    light.inner_deg = std::clamp(glm::degrees(inner), 0.0f, std::max(light.outer_deg, 0.0f));
+    if (outer > glm::pi<float>() || !(inner >= 0.0f && inner <= outer))
+        file.note("cones of spots are moved to 0 <= innerConeAngle <= outerConeAngle <= pi", at);
+    light.falloff = SpotFalloff::Cosine;
+    return light.outer_deg > 0.0f;
+}
+
+std::optional<PunctualKind> kind_of(const std::string& type) {
+    for (const PunctualKind kind : {PunctualKind::Point, PunctualKind::Spot, PunctualKind::Directional})
+        if (type == name_of(kind)) return kind;
+    return std::nullopt;
+}
+
+/// A light shines along -z of its node.
+void add_light(GltfFile& file, const GltfNode& node, const std::string& at, SceneDescription& scene) {
+    const std::string type = file.json().text(at + "/type").value_or("none");
+    const std::optional<PunctualKind> kind = kind_of(type);
+    if (!kind) return file.note(fmt::format("lights of the type {} are left out", type), at);
+    const glm::dvec3 back(node.to_world[2]);
+    if (*kind != PunctualKind::Point && !(glm::length(back) > 0.0))
+        return file.note("lights whose node has no extent are left out", at);
+    PunctualLightDescription light{.kind = *kind, .position = glm::vec3(node.to_world[3])};
+    light.intensity = intensity_of(file, at);
+    if (*kind != PunctualKind::Point) light.direction = glm::vec3(-glm::normalize(back));
+    if (*kind == PunctualKind::Spot && !read_cones(file, at, light))
+        return file.note("spots without a cone are left out", at);
+    if (*kind != PunctualKind::Directional && file.json().number(at + "/range"))
+        file.note("ranges of lights are left out: light falls off by the square of the distance alone", at);
+    scene.punctual_lights.push_back(light);
+}
+
+}  // namespace
+
+void add_gltf_lights(GltfFile& file, const GltfNodes& nodes, SceneDescription& scene) {
+    for (const std::uint32_t number : nodes.shown) {
+        const GltfNode& node = nodes.all[number];
+        if (node.light)
+            add_light(file, node, fmt::format("/extensions/KHR_lights_punctual/lights/{}", *node.light), scene);
+    }
 }
 
 }  // namespace pl

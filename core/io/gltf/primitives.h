@@ -11,7 +11,6 @@
 
 #include "core/io/gltf/gltf_file.h"
 #include "core/io/gltf/surfaces.h"
-#include "core/io/gltf/vertex_opacity.h"
 
 namespace pl {
 
@@ -58,5 +57,21 @@ private:
     std::map<std::uint32_t, std::vector<GltfPrimitive>> known_;
     std::uint64_t elements_ = 0;
 };
+
+// Copies of the primitives of a glTF file in a place.
+
+/// A place of a mesh.
+struct GltfPlace {
+    glm::dmat4 to_world{1.0};
+    std::vector<glm::dmat4>
+        joints{};  ///< of the skin, in its pose, which replace `to_world` for primitives with joints; or none
+};
+
+/// Adds the vertices of a primitive in a place, and its triangles. Mirrored ones keep their front. Triangles too small to have a normal
+/// are left out, normals of no length ignored, both with a note. Vertices without a color, of which there may be some behind those with
+/// one, are white.
+/// Throws Error(Input): coordinates beyond kLargestCoordinate, joints that the skin does not have.
+void copy_gltf_primitive(GltfFile& file, const GltfPrimitive& primitive, std::uint32_t material,
+                         const GltfPlace& place, SceneDescription& to);
 
 }  // namespace pl

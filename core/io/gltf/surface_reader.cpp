@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 
 #include "core/io/gltf/material_values.h"
-#include "core/io/mtl_surface.h"
+#include "core/io/mtl.h"
 #include "core/kernel/shading/absorption.h"
 #include "core/kernel/shading/velvet.h"
 #include "core/scene/anisotropy.h"

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "core/io/gltf/images.h"
+#include "core/io/gltf/material_values.h"
 #include "core/io/gltf/surfaces.h"
 
 namespace pl {

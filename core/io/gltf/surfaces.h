@@ -2,13 +2,35 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
 #include <vector>
 
+#include <glm/glm.hpp>
+
 #include "core/io/gltf/gltf_file.h"
-#include "core/io/gltf/uv_mapping.h"
 #include "core/scene/description.h"
 
 namespace pl {
+
+// Texture coordinates of the images of glTF materials.
+
+/// Choice and transformation of texture coordinates. [KHR_texture_transform]
+struct UvMapping {
+    std::uint32_t set = 0;
+    glm::vec2 offset{0.0f};
+    glm::vec2 scale{1.0f};
+    float rotation = 0.0f;  ///< radians
+
+    /// From coordinates of the file, v downwards, to those of the renderer, v upwards.
+    glm::vec2 apply(glm::vec2 uv) const;
+    friend bool operator==(const UvMapping&, const UvMapping&) = default;
+};
+
+/// Of the textureInfo at `info`.
+UvMapping read_uv_mapping(const GltfFile& file, const std::string& info);
 
 /// The effect of the opacity of vertices, which multiplies that of the base color.
 enum class VertexAlpha : std::uint32_t {
@@ -30,5 +52,34 @@ struct GltfSurface {
 
 /// Adds the materials and images of the file to the scene. The last surface is that of triangles without a material.
 std::vector<GltfSurface> read_surfaces(GltfFile& file, SceneDescription& scene);
+
+// Opacities of the vertices of glTF primitives, which multiply those of materials.
+
+/// Those of the vertices of a primitive, in [0, 1].
+struct OpacityRange {
+    float least = 1.0f;
+    float most = 1.0f;
+};
+
+/// The renderer knows one opacity for each material: primitives whose vertices have the same one get a copy of their material.
+class VertexOpacities {
+public:
+    VertexOpacities(GltfFile& file, std::vector<GltfSurface>& surfaces, SceneDescription& scene)
+        : file_(file), surfaces_(surfaces), scene_(scene) {}
+
+    /// The surface of a primitive at `at` whose vertices have these opacities. Adds it, with its material, if there is none such. Opacities
+    /// that cannot be shown are noted.
+    std::uint32_t surface_with(std::uint32_t surface, const OpacityRange& range, const std::string& at);
+
+private:
+    std::uint32_t scaled(std::uint32_t surface, float opacity);
+    std::string free_name(const std::string& name, float opacity);
+
+    GltfFile& file_;
+    std::vector<GltfSurface>& surfaces_;
+    SceneDescription& scene_;
+    std::map<std::pair<std::uint32_t, float>, std::uint32_t> known_;  ///< by surface and opacity
+    std::set<std::string> names_;                                     ///< of all materials
+};
 
 }  // namespace pl

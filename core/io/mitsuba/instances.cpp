@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "core/io/append_triangles.h"
+#include "core/io/kept_meshes.h"
 #include "core/io/mitsuba/shapes.h"
 #include "core/scene/instances.h"
 

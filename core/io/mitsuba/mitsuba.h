@@ -3,10 +3,19 @@
 
 #include <filesystem>
 
+#include <glm/glm.hpp>
+
 #include "core/io/load_settings.h"
+#include "core/io/mitsuba/xml_file.h"
 #include "core/scene/description.h"
 
 namespace pl {
+
+// Media of Mitsuba as the absorption of glass.
+
+/// Absorption per length inside of glass: that of a `medium` element of the type homogeneous, which scatters nothing. Other media
+/// are noted and absorb nothing. [Mitsuba 3 and 0.6, homogeneous]
+glm::vec3 mitsuba_absorption(const MitsubaObject& medium);
 
 /// Reads shapes, groups of them by their instances (see MitsubaInstances), surfaces, textures, emitters, camera and size of the picture;
 /// the caller sets the name. `up` is that of the camera. The first sensor becomes the first of SceneDescription::cameras. The

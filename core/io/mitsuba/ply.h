@@ -10,12 +10,14 @@
 
 namespace pl {
 
+/// Content of a PLY file, or of a shape in a serialized file.
 struct PlyMesh {
     std::vector<glm::dvec3> positions;
     std::vector<glm::vec3> normals;  ///< per vertex, or none
     std::vector<glm::vec2> uvs;      ///< per vertex, or none
     std::vector<glm::vec3> colors;   ///< per vertex, integers as shares of their largest; or none
     std::vector<std::array<std::uint32_t, 3>> triangles;  ///< polygons are cut as fans
+    bool is_flat = false;                                 ///< a serialized file says that its faces are flat
 };
 
 /// Reads text and binary files of either order of bytes. Elements other than `vertex` and `face`, and other properties, are passed

@@ -10,8 +10,6 @@
 #include <glm/glm.hpp>
 #include <glm/gtc/constants.hpp>
 
-#include "core/io/mitsuba/faces.h"
-
 namespace pl {
 namespace {
 

@@ -15,7 +15,7 @@
 #include "core/base/error.h"
 #include "core/base/memory.h"
 #include "core/io/files.h"
-#include "core/io/image_checks.h"
+#include "core/io/image.h"
 
 namespace pl {
 namespace {
@@ -134,21 +134,22 @@ std::string unpacked_mesh(std::string_view packed, std::uint64_t version, const 
     return unpacked(packed, static_cast<std::size_t>(size), file);
 }
 
-SerializedMesh read_mesh(Bytes file, std::uint64_t version) {
+PlyMesh read_mesh(Bytes file, std::uint64_t version) {
     const MeshHead head = read_head(file, version);
     const std::uint64_t vertices = head.vertices;
     require_room(head, file.left(), file);
     const bool is_double = head.has(kIsDouble);
-    SerializedMesh result{.mesh = {}, .is_flat = head.has(kIsFlat)};
+    PlyMesh result;
+    result.is_flat = head.has(kIsFlat);
     const auto vectors = [&](auto& to) {
         to.resize(static_cast<std::size_t>(vertices));
         for (auto& v : to)
             for (int k = 0; k < v.length(); ++k)
                 v[k] = static_cast<std::remove_reference_t<decltype(v[k])>>(file.real(is_double));
     };
-    vectors(result.mesh.positions);
-    if (head.has(kHasNormals)) vectors(result.mesh.normals);
-    if (head.has(kHasUvs)) vectors(result.mesh.uvs);
+    vectors(result.positions);
+    if (head.has(kHasNormals)) vectors(result.normals);
+    if (head.has(kHasUvs)) vectors(result.uvs);
     if (head.has(kHasColors)) file.skip(vertices * (is_double ? 24 : 12));
     for (std::uint64_t i = 0; i < head.triangles; ++i) {
         std::array<std::uint32_t, 3> corners{};
@@ -157,14 +158,14 @@ SerializedMesh read_mesh(Bytes file, std::uint64_t version) {
             if (corner >= vertices)
                 file.fail(fmt::format("expected indices below {}, the number of vertices, got {}", vertices, corner));
         }
-        result.mesh.triangles.push_back(corners);
+        result.triangles.push_back(corners);
     }
     return result;
 }
 
 }  // namespace
 
-SerializedMesh read_serialized(const std::filesystem::path& path, std::int64_t shape) {
+PlyMesh read_serialized(const std::filesystem::path& path, std::int64_t shape) {
     const std::string bytes = read_file(path);
     Bytes file(bytes, path);
     const std::uint64_t magic = file.whole(2);

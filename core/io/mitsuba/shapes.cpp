@@ -8,17 +8,15 @@
 #include <fmt/format.h>
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "core/base/parallel_chunks.h"
-#include "core/io/append_triangles.h"
+#include "core/base/parallel.h"
+#include "core/io/kept_meshes.h"
 #include "core/io/line_reader.h"
-#include "core/io/mitsuba/faces.h"
 #include "core/io/mitsuba/ply.h"
 #include "core/io/mitsuba/round_shapes.h"
 #include "core/io/mitsuba/serialized.h"
 #include "core/io/obj.h"
-#include "core/io/obj_smooth.h"
 #include "core/io/obj_triangles.h"
-#include "core/io/triangle_area.h"
+#include "core/io/triangulate.h"
 #include "core/scene/far_origin.h"
 
 namespace pl {
@@ -95,9 +93,9 @@ FileMesh read_file_mesh(const MitsubaObject& shape, const std::filesystem::path&
         std::vector<glm::vec3> colors = std::move(read.colors);
         return {.mesh = mesh_of(std::move(read)), .vertex_colors = std::move(colors)};
     }
-    SerializedMesh read =
-        read_serialized(path, static_cast<std::int64_t>(shape.number("shape_index").value_or(0.0f)));
-    return {.mesh = mesh_of(std::move(read.mesh)), .is_flat = read.is_flat};
+    PlyMesh read = read_serialized(path, static_cast<std::int64_t>(shape.number("shape_index").value_or(0.0f)));
+    const bool is_flat = read.is_flat;
+    return {.mesh = mesh_of(std::move(read)), .is_flat = is_flat};
 }
 
 /// The colors of a file's vertices, for a surface that shows them.

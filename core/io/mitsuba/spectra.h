@@ -13,10 +13,9 @@ struct WavelengthSpectrum {
     std::vector<double> wavelengths, values;
 };
 
-/// The color of what is lit, of which a flat spectrum of 1 gives 1, or of what shines by itself, of luminance 1. The first one is that
+/// The color of what is lit, of which a flat spectrum of 1 gives 1, or of what `shines` by itself, of luminance 1. The first one is that
 /// under the standard illuminant D65, which is white; the second one of a flat spectrum is reddish. At least 0. [Mitsuba 3, rgb variants]
-enum class SpectrumRole { Lit, Shines };
-glm::vec3 color_of(const WavelengthSpectrum& spectrum, SpectrumRole role);
+glm::vec3 color_of(const WavelengthSpectrum& spectrum, bool shines);
 
 /// Radiance of a black body of this temperature in kelvins, in W m^-2 sr^-1 nm^-1. [Planck 1901]
 WavelengthSpectrum black_body(double kelvins);

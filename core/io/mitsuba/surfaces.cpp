@@ -9,11 +9,9 @@
 #include <fmt/format.h>
 
 #include "core/io/line_reader.h"
-#include "core/io/mitsuba/adapters.h"
 #include "core/io/mitsuba/blends.h"
 #include "core/io/mitsuba/coats.h"
-#include "core/io/mitsuba/interfaces.h"
-#include "core/io/mtl_surface.h"
+#include "core/io/mtl.h"
 #include "core/kernel/shading/fresnel.h"
 
 namespace pl {

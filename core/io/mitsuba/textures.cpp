@@ -7,7 +7,6 @@
 
 #include <fmt/format.h>
 
-#include "core/io/height_map.h"
 #include "core/io/line_reader.h"
 #include "core/io/texture_file.h"
 #include "core/kernel/base/math.h"

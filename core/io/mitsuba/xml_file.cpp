@@ -10,7 +10,6 @@
 #include "core/base/error.h"
 #include "core/io/files.h"
 #include "core/io/line_reader.h"
-#include "core/io/mitsuba/xml_text.h"
 #include "core/io/nearest_name.h"
 #include "core/io/texture_file.h"
 
@@ -21,7 +20,7 @@ namespace fs = std::filesystem;
 namespace {
 
 /// Properties that decide how Mitsuba works, or how it writes a file, but nothing that a picture shows.
-constexpr std::array<std::string_view, 22> kWithoutEffect = {
+constexpr std::array<std::string_view, 22> kPassedOver = {
     "rr_depth",     "sampling_weight",  "sample_visible",  "samples_per_pass",
     "block_size",   "timeout",          "pixel_format",    "component_format",
     "file_format",  "banner",           "sample_border",   "high_quality_edges",
@@ -135,7 +134,7 @@ void MitsubaObject::note_unused() const {
     const MitsubaShared& shared = *text_->shared;
     if (!shared.read.contains(identity()) || shared.left_out.contains(identity())) return;
     for (const MitsubaObject& child : children()) {
-        if (shared.used.contains(child.identity()) || contains(kWithoutEffect, child.name()) ||
+        if (shared.used.contains(child.identity()) || contains(kPassedOver, child.name()) ||
             contains(kObjectsWithoutEffect, child.element()))
             continue;
         const std::string name = child.attribute("name");

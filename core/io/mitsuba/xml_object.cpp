@@ -8,7 +8,6 @@
 #include "core/base/error.h"
 #include "core/io/line_reader.h"
 #include "core/io/mitsuba/xml_file.h"
-#include "core/io/mitsuba/xml_text.h"
 #include "core/io/texture_file.h"
 
 namespace pl {

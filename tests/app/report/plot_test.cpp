@@ -1,6 +1,28 @@
+// Text as markup, and bytes as base64.
 // Plots of the report, drawn from known numbers.
 #include "app/report/plot.h"
+
 #include "tests/support/catch.hpp"
+
+namespace pl {
+
+TEST_CASE("markup in names is text") {
+    CHECK(escape_markup("<a href='x'>\"&\"") == "&lt;a href=&#39;x&#39;&gt;&quot;&amp;&quot;");
+    CHECK(escape_markup("").empty());
+}
+
+TEST_CASE("base64 of the standard's examples") {
+    CHECK(base64("").empty());
+    CHECK(base64("f") == "Zg==");
+    CHECK(base64("fo") == "Zm8=");
+    CHECK(base64("foo") == "Zm9v");
+    CHECK(base64("foob") == "Zm9vYg==");
+    CHECK(base64("fooba") == "Zm9vYmE=");
+    CHECK(base64("foobar") == "Zm9vYmFy");
+    CHECK(base64(std::string("\xff\xfe\x00", 3)) == "//4A");
+}
+
+}  // namespace pl
 
 namespace pl::test {
 namespace {

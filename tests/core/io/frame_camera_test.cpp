@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "core/io/obj.h"
-#include "core/io/open_side.h"
 #include "core/scene/instances.h"
 #include "core/scene/up_axis.h"
 #include "tests/support/catch.hpp"

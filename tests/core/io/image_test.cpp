@@ -9,7 +9,6 @@
 #include <thread>
 
 #include "core/io/files.h"
-#include "core/io/image_checks.h"
 #include "tests/support/catch.hpp"
 #include "tests/support/files/input_error.h"
 #include "tests/support/files/temporary_folder.h"

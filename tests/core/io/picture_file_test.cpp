@@ -1,4 +1,5 @@
 // Picture files: display values of every kind of view, and files that cannot be written.
+// Names of the files of a sequence.
 #include "core/io/picture_file.h"
 
 #include <cmath>
@@ -7,6 +8,8 @@
 #include "core/io/files.h"
 #include "tests/support/catch.hpp"
 #include "tests/support/files/temporary_folder.h"
+
+using namespace pl;
 
 namespace pl::test {
 namespace {
@@ -62,3 +65,10 @@ TEST_CASE("a file that cannot be written is found out beforehand, without a trac
 }
 
 }  // namespace pl::test
+
+TEST_CASE("Frame files: numbered from 1 with at least four digits, and of the kind that their suffix tells") {
+    CHECK(frame_file("a/b", 0, ImageKind::Png) == "a/b/frame_0001.png");
+    CHECK(frame_file("a/b", 12344, ImageKind::Exr) == "a/b/frame_12345.exr");
+    for (const ImageKind kind : {ImageKind::Exr, ImageKind::Pfm, ImageKind::Png})
+        CHECK(image_kind(frame_file("f", 7, kind)) == kind);
+}

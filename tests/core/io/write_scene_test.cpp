@@ -6,7 +6,6 @@
 #include "core/base/error.h"
 #include "core/io/image.h"
 #include "core/io/load_scene.h"
-#include "core/io/write_mesh.h"
 #include "core/scene/instances.h"
 #include "core/scene/scene_hash.h"
 #include "tests/support/catch.hpp"

@@ -296,7 +296,7 @@ TEST_CASE("a run that is forgotten while it renders begins anew") {
     REQUIRE(recording.count() == 1);
     CHECK(recording.run(0).number == number);
     CHECK(recording.run(0).points.front().spp == 101);
-    recording.runs.forget_all();
+    recording.runs.forget(number);
     CHECK(recording.count() == 0);
     CHECK(recording.runs.current()->picture_bytes == 0);
 }

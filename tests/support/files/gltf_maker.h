@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/io/json.h"
+#include "core/io/json_file.h"
 
 namespace pl::test {
 

@@ -1,7 +1,7 @@
 // A rectangular lamp over or beside a gray floor: radiance of the floor in closed form.
 #pragma once
 
-#include "core/selftest/form_factors.h"
+#include "core/selftest/known_scenes.h"
 #include "tests/support/scenes/closed_scenes.h"
 
 namespace pl::test {

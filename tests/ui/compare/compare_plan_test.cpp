@@ -1,4 +1,10 @@
 // The rectangles of a comparison.
+// The pixel under the pointer, and compared pictures under a zoom.
+#include "ui/compare/compare_plan.h"
+
+#include <algorithm>
+#include <cmath>
+
 #include "tests/support/catch.hpp"
 #include "tests/ui/hand_made_comparison.h"
 
@@ -64,4 +70,71 @@ TEST_CASE("Plan: difference and error map need pictures of the same size, the ma
     CHECK(plan_comparison(sides, state_of(CompareMode::ErrorMap), &reference, kView).tiles.empty());
     sides.b->picture = plain_picture(0x3c00, 8, 4);
     CHECK(plan_comparison(sides, state_of(CompareMode::Difference), nullptr, kView).tiles.empty());
+}
+
+namespace {
+
+/// 4 x 2 pixels, each with its number as red.
+PublishedFrame numbered_frame() {
+    PublishedFrame frame;
+    frame.snapshot.width = 4;
+    frame.snapshot.height = 2;
+    for (int i = 0; i < 8; ++i) frame.snapshot.pixels.emplace_back(static_cast<float>(i), 0.0f, 0.0f);
+    return frame;
+}
+
+PictureZoom twice() {
+    PictureZoom zoom;
+    zoom.step(1, kView.center(), kView, 4, 2);
+    return zoom;
+}
+
+}  // namespace
+
+TEST_CASE("Pointed pixel: place and value of the picture, none beside it or without values") {
+    PublishedFrame frame = numbered_frame();
+    const auto pointed = pointed_pixel({}, frame, kView, {10.0f + 250.0f, 20.0f + 150.0f});
+    REQUIRE(pointed);
+    CHECK(pointed->at == PixelPosition{2, 1});
+    CHECK(pointed->value->x == 6.0f);
+    CHECK_FALSE(pointed_pixel({}, frame, kView, {5.0f, 100.0f}));
+    CHECK(magnifier_at({}, frame, kView, {260.0f, 170.0f}, kView, 16.0f)->pixel == PixelPosition{2, 1});
+    frame.snapshot.pixels.clear();
+    CHECK_FALSE(pointed_pixel({}, frame, kView, {260.0f, 170.0f})->value);
+}
+
+TEST_CASE("Pointed pixel: of the compared picture under the pointer") {
+    const Runs runs = two_runs();
+    const CompareState state = state_of(CompareMode::SideBySide);
+    const CompareSides sides = resolve_sides(input_of(runs), state);
+    const ComparePlan plan = plan_comparison(sides, state, nullptr, kView);
+    for (const CompareTile& tile : plan.tiles) {
+        const auto pointed = pointed_pixel(plan, numbered_frame(), kView, tile.clip.center());
+        REQUIRE(pointed);
+        CHECK(*pointed->value == *value_of(tile.content, pointed->at));
+    }
+    CHECK_FALSE(pointed_pixel(plan, numbered_frame(), kView, {11.0f, 21.0f}));  // above the smaller pictures
+}
+
+TEST_CASE("Zoom: compared pictures keep one place, are cut at the view, and the line follows the picture") {
+    const Runs runs = two_runs();
+    CompareState state = state_of(CompareMode::Split);
+    const CompareSides sides = resolve_sides(input_of(runs), state);
+    PictureZoom zoom = twice();
+    for (const float share : {0.0f, 0.5f, 0.6f, 1.0f}) {
+        state.split = share;
+        const ComparePlan plan = plan_comparison(sides, state, nullptr, kView, zoom);
+        REQUIRE(plan.tiles.size() == 2);
+        const Rect place = zoom.place(kView, 4, 2);
+        CHECK(plan.is_zoomed);
+        for (const CompareTile& tile : plan.tiles) {
+            CHECK(tile.place.x == place.x);
+            CHECK(tile.place.width == place.width);
+            CHECK(tile.clip.x >= kView.x);
+            CHECK(tile.clip.x + tile.clip.width <= kView.x + kView.width);
+        }
+        CHECK(plan.tiles[0].clip.x + plan.tiles[0].clip.width == plan.tiles[1].clip.x);
+        const float line = std::round(place.x + share * place.width);
+        CHECK(*plan.split_x == std::clamp(line, kView.x, kView.x + kView.width));
+    }
 }

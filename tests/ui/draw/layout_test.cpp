@@ -153,9 +153,9 @@ TEST_CASE("Layout: the picture keeps its shape, and is shown pixel by pixel wher
     const Rect small = place_image(view, 60, 60);
     CHECK(small.width == 600.0f);
     CHECK(place_image(view, 0, 0).width == 0.0f);
-    CHECK(fit_image(view, 512, 512).width == 600);
-    CHECK(fit_image(view, 512, 512).height == 600);
-    CHECK(fit_image(view, 1600, 900).width == 800);
-    CHECK(fit_image(view, 1600, 900).height == 450);
-    CHECK(fit_image({0, 0, 10, 10}, 1, 1).width == 64);
+    CHECK(fit_image(view, 512, 512).x == 600);
+    CHECK(fit_image(view, 512, 512).y == 600);
+    CHECK(fit_image(view, 1600, 900).x == 800);
+    CHECK(fit_image(view, 1600, 900).y == 450);
+    CHECK(fit_image({0, 0, 10, 10}, 1, 1).x == 64);
 }

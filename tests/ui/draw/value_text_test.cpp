@@ -31,3 +31,18 @@ TEST_CASE("Short numbers and seconds have a unit") {
     CHECK(short_seconds(1.25) == "1.25 s");
     CHECK(short_seconds(140.0) == "140 s");
 }
+
+TEST_CASE("Words: one is not many") {
+    CHECK(passes_text(0) == "0 passes");
+    CHECK(passes_text(1) == "1 pass");
+    CHECK(passes_text(12) == "12 passes");
+    CHECK(light_samples_text(true) == std::string("light samples on"));
+    CHECK(light_samples_text(false) == std::string("light samples off"));
+}
+
+TEST_CASE("Method keys: all methods, or those with a flag") {
+    CHECK(method_keys() == "1, 2, 3");
+    CHECK(method_keys(&MethodInfo::uses_field) == "2, 3");
+    CHECK(method_keys(&MethodInfo::precomputes) == "2");
+    CHECK(method_keys(&MethodInfo::learns) == "3");
+}

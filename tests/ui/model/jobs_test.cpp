@@ -13,8 +13,8 @@ TEST_CASE("Jobs: reports run on the calling thread, an exception becomes an erro
     Messages messages;
     Jobs jobs(messages);
     bool reported = false;
-    jobs.push([&]() -> JobThread::Report { return [&] { reported = true; }; });
-    jobs.push([]() -> JobThread::Report { throw std::runtime_error("the disk is full"); });
+    jobs.push([&]() -> Jobs::Report { return [&] { reported = true; }; });
+    jobs.push([]() -> Jobs::Report { throw std::runtime_error("the disk is full"); });
     REQUIRE(eventually([&] { return jobs.pending() == 0; }));
     CHECK_FALSE(reported);
     jobs.update();
@@ -29,7 +29,7 @@ TEST_CASE("Jobs: all queued jobs run before the end") {
     std::atomic<int> done{0};
     Jobs jobs(messages);
     for (int i = 0; i < 5; ++i)
-        jobs.push([&]() -> JobThread::Report {
+        jobs.push([&]() -> Jobs::Report {
             ++done;
             return {};
         });

@@ -54,10 +54,10 @@ TEST_CASE("Thumbnail: a file is read as it was written, damaged ones and other p
 TEST_CASE("Thumbnail: rendered in its size, nothing if it is stopped") {
     const FakeDevices devices;
     StopFlag stop{false};
-    const auto picture = render_thumbnail(small_scene(), devices.maker(), ThumbnailQuality::Whole, &stop);
+    const auto picture = render_thumbnail(small_scene(), devices.maker(), false, &stop);
     REQUIRE(picture);
     CHECK(picture->width == kThumbnailWidth);
     CHECK(picture->height == kThumbnailHeight);
     stop = true;
-    CHECK_FALSE(render_thumbnail(small_scene(), devices.maker(), ThumbnailQuality::Whole, &stop));
+    CHECK_FALSE(render_thumbnail(small_scene(), devices.maker(), false, &stop));
 }

@@ -1,5 +1,10 @@
+// Loading on the helper thread: only the newest request waits, a failure is told, and knobs reach the picture.
 // The scene in the window: loading, and materials that are edited, refused and restored.
+#include "ui/model/viewed_scene.h"
+
+#include <atomic>
 #include <cmath>
+#include <mutex>
 
 #include "core/base/error.h"
 #include "core/io/files.h"
@@ -7,11 +12,183 @@
 #include "tests/support/catch.hpp"
 #include "tests/support/scenes/shapes.h"
 #include "tests/ui/file_bench.h"
-#include "ui/model/stored_reference.h"
+#include "ui/model/references.h"
 
 using namespace pl;
 using namespace pl::ui;
 using namespace pl::test;
+
+using Names = std::vector<std::string>;
+
+TEST_CASE("Recent files: newest first, each once, ten of them") {
+    RecentFiles recent;
+    for (const char* name : {"a", "b", "c", "a"}) recent.add(name);
+    CHECK(recent.names() == Names{"a", "c", "b"});
+    for (int i = 0; i < 12; ++i) recent.add(std::to_string(i));
+    REQUIRE(recent.names().size() == RecentFiles::kMost);
+    CHECK(recent.names().front() == "11");
+    CHECK(recent.names().back() == "2");
+}
+
+TEST_CASE("Recent files: a stored list comes back in its order, without what breaks the rules") {
+    RecentFiles recent;
+    recent.add("old");
+    recent.set({"x", "y", "x", "z"});
+    CHECK(recent.names() == Names{"x", "y", "z"});
+    recent.set(Names(20, "same"));
+    CHECK(recent.names() == Names{"same"});
+}
+
+namespace {
+
+/// A scene with one knob, which moves the camera's home; loads can be held.
+struct KnobBench : ModelBench {
+    std::atomic<bool> hold{false};
+    std::atomic<bool> loading{false};
+    std::mutex mutex;
+    std::vector<SceneRequest> requests;  ///< in the order of their loads
+
+    KnobBench() : ModelBench(16) {
+        options.load_scene = [this](const SceneRequest& request) { return load(request); };
+    }
+    static std::shared_ptr<SceneDescription> scene(float value = 2.0f) {
+        auto made = std::make_shared<SceneDescription>(*small_scene());
+        made->knobs = {
+            {.name = "gap", .does = "width", .low = 1.0f, .high = 5.0f, .default_value = 2.0f, .value = value}};
+        made->positions[0].y += 0.01f * (value - 2.0f);
+        return made;
+    }
+    std::shared_ptr<const SceneDescription> load(const SceneRequest& request) {
+        {
+            const std::lock_guard lock(mutex);
+            requests.push_back(request);
+        }
+        loading = true;
+        while (hold) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        loading = false;
+        if (request.name == "broken.obj") throw Error(ErrorKind::Input, "broken.obj:7: expected a number");
+        const float value = request.knobs.empty() ? 2.0f : request.knobs.back().second;
+        if (value > 5.0f) throw Error(ErrorKind::Usage, "gap=9: expected 1 to 5");
+        return scene(value);
+    }
+    std::vector<SceneRequest> loaded() {
+        const std::lock_guard lock(mutex);
+        return requests;
+    }
+    bool shows(ViewerModel& model, float value) {
+        return run_until(model,
+                         [&] { return has_frame(model) && model.frame()->description->knobs.at(0).value == value; });
+    }
+};
+
+SceneRequest small_with_gap(float value) { return {"small", {{"gap", value}}}; }
+
+}  // namespace
+
+TEST_CASE("Scene loader: a knob loads the scene again, camera and edited materials stay") {
+    KnobBench bench;
+    ViewerModel model(bench.options, KnobBench::scene(), bench.options.settings, 0.0);
+    REQUIRE(bench.shows(model, 2.0f));
+    CHECK(model.scene().shown() == SceneRequest{"small"});
+    model.camera().fly({.right = 1.0f}, 0.1);
+    MaterialDescription gray = model.scene().materials().now()[0];
+    gray.albedo = glm::vec3{0.25f};
+    model.scene().set_material(0, gray);
+    const float eye = model.camera().camera().eye.x;
+
+    model.scene().set_knob(0, 3.5f);
+    CHECK(model.scene().knobs()[0].value == 3.5f);
+    REQUIRE(bench.shows(model, 3.5f));
+    CHECK(model.camera().camera().eye.x == eye);
+    CHECK(model.frame()->snapshot.camera.eye.x == eye);
+    CHECK(bench.run_until(model, [&] { return model.frame()->description->materials[0] == gray; }));
+    CHECK(model.scene().shown() == small_with_gap(3.5f));
+    CHECK(model.files().pictures().picture().scene == small_with_gap(3.5f));
+    CHECK(model.files().pictures().picture().description->knobs[0].value == 3.5f);
+
+    model.scene().reload();
+    REQUIRE(bench.run_until(model, [&] { return model.scene().materials().edited_names().empty(); }));
+    CHECK(model.scene().knobs()[0].value == 3.5f);
+    model.scene().reset_knobs();
+    CHECK(bench.shows(model, 2.0f));
+    CHECK(bench.loaded().back() == SceneRequest{"small"});
+}
+
+TEST_CASE("Scene loader: of the values during a load only the newest is loaded") {
+    KnobBench bench;
+    ViewerModel model(bench.options, KnobBench::scene(), bench.options.settings, 0.0);
+    bench.hold = true;
+    model.scene().set_knob(0, 2.5f);
+    REQUIRE(eventually([&] { return bench.loading.load(); }));
+    for (const float value : {2.75f, 3.0f, 4.0f}) model.scene().set_knob(0, value);
+    bench.hold = false;
+    REQUIRE(bench.shows(model, 4.0f));
+    CHECK(bench.loaded() == std::vector{small_with_gap(2.5f), small_with_gap(4.0f)});
+    CHECK(model.scene().knobs()[0].value == 4.0f);
+}
+
+TEST_CASE("Scene loader: a refused value leaves the old one, with the reason") {
+    KnobBench bench;
+    ViewerModel model(bench.options, KnobBench::scene(), bench.options.settings, 0.0);
+    model.scene().set_knob(0, 3.0f);
+    REQUIRE(bench.shows(model, 3.0f));
+    model.scene().set_knob(0, 9.0f);
+    REQUIRE(bench.run_until(model, [&] { return told(model, "gap=9: expected 1 to 5"); }));
+    CHECK(model.scene().knobs()[0].value == 3.0f);
+    CHECK(model.scene().shown() == small_with_gap(3.0f));
+    model.scene().set_knob(1, 3.0f);  // there is none
+    CHECK(model.scene().shown() == small_with_gap(3.0f));
+}
+
+TEST_CASE("Scene loader: another scene replaces waiting values, and knobs rest until it is there") {
+    KnobBench bench;
+    ViewerModel model(bench.options, KnobBench::scene(), bench.options.settings, 0.0);
+    bench.hold = true;
+    model.scene().set_knob(0, 2.5f);
+    model.scene().set_knob(0, 3.0f);
+    model.scene().open("other");
+    model.scene().set_knob(0, 4.0f);
+    model.scene().reload();
+    bench.hold = false;
+    REQUIRE(bench.run_until(model, [&] { return model.scene().name() == "other"; }));
+    CHECK(model.scene().knobs()[0].value == 2.0f);
+    CHECK(bench.loaded() == std::vector{small_with_gap(2.5f), SceneRequest{"other"}});
+    model.scene().open("broken.obj");
+    REQUIRE(bench.run_until(model, [&] { return told(model, "broken.obj:7"); }));
+    CHECK(model.scene().name() == "other");
+    model.scene().set_knob(0, 4.0f);
+    CHECK(bench.shows(model, 4.0f));
+}
+
+TEST_CASE("Materials: a file can name the first of each name, and edits of others are known to be missing") {
+    auto scene = std::make_shared<SceneDescription>();
+    for (const char* name : {"a", "", "a", "b"}) scene->materials.push_back({.name = name});
+    EditedMaterials materials(scene);
+    REQUIRE(materials.named().size() == 2);
+    CHECK(materials.are_edits_named());
+    materials.set(3, with_albedo(scene->materials[3], 0.5f));
+    CHECK(materials.named()[1].albedo == glm::vec3{0.5f});
+    CHECK(materials.are_edits_named());
+    materials.set(2, with_albedo(scene->materials[2], 0.5f));
+    CHECK(materials.named()[0].albedo == glm::vec3{0.0f});
+    CHECK_FALSE(materials.are_edits_named());
+}
+
+TEST_CASE("Materials: only what moves no volume leaves the selected one") {
+    const MaterialDescription white = with_albedo({}, 0.5f);
+    CHECK_FALSE(may_move_volumes(white, with_albedo(white, 0.7f)));
+    CHECK(may_move_volumes(white, with_albedo(white, 0.0f)));
+    MaterialDescription other = white;
+    other.emission.y = 1.0f;
+    CHECK(may_move_volumes(white, other));
+    other = white;
+    other.kind = SurfaceKind::Plastic;
+    CHECK(may_move_volumes(white, other));
+    CHECK(may_move_volumes(other, with_albedo(other, 0.7f)));
+    other = white;
+    other.textures.albedo = 0;
+    CHECK(may_move_volumes(other, with_albedo(other, 0.7f)));
+}
 
 namespace {
 

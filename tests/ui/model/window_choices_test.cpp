@@ -1,5 +1,5 @@
 #include "tests/support/described_choice.h"
-#include "ui/compare/compare_state.h"
+#include "ui/compare/sides.h"
 #include "ui/model/window_choices.h"
 
 using namespace pl;

@@ -38,22 +38,22 @@ TEST_CASE("Render worker: picks a surface and inspects its volume, also while pa
     worker.set_paused(true);
     worker.request_pick({0.5f, 0.65f});
     std::optional<PickAnswer> answer;
-    REQUIRE(eventually([&] { return (answer = worker.take_pick()).has_value(); }));
-    REQUIRE(answer->point);
-    CHECK_THAT(answer->point->position.y, WithinAbs(0.0f, 1.0e-3f));
-    REQUIRE(answer->point->volume != kNoVolume);
-    CHECK_FALSE(worker.take_pick());
+    REQUIRE(eventually([&] { return (answer = worker.take<PickAnswer>()).has_value(); }));
+    REQUIRE(answer->value);
+    CHECK_THAT(answer->value->position.y, WithinAbs(0.0f, 1.0e-3f));
+    REQUIRE(answer->value->volume != kNoVolume);
+    CHECK_FALSE(worker.take<PickAnswer>());
 
-    worker.select_volume(answer->point->volume);
+    worker.select_volume(answer->value->volume);
     REQUIRE(eventually([&] { return worker.latest()->volume != nullptr; }));
-    CHECK(worker.latest()->volume->volume == answer->point->volume);
+    CHECK(worker.latest()->volume->volume == answer->value->volume);
     CHECK(worker.latest()->volume->side == 4);
     worker.select_volume(kNoVolume);
     CHECK(eventually([&] { return worker.latest()->volume == nullptr; }));
 
     worker.request_pick({0.01f, 0.01f});
-    REQUIRE(eventually([&] { return (answer = worker.take_pick()).has_value(); }));
-    CHECK_FALSE(answer->point);
+    REQUIRE(eventually([&] { return (answer = worker.take<PickAnswer>()).has_value(); }));
+    CHECK_FALSE(answer->value);
 }
 
 TEST_CASE("Render worker: a selected volume without tables is no error") {

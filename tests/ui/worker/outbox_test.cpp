@@ -21,16 +21,16 @@ TEST_CASE("Outbox: frames are numbered, and the window tells by taking one that 
 TEST_CASE("Outbox: answers and messages are taken once, status and runs stay") {
     Outbox outbox(WorkerStatus{});
     outbox.answer(PickAnswer{});
-    outbox.answer(LearnedAnswer{.field = nullptr, .reason = "none"});
+    outbox.answer(LearnedAnswer{.value = nullptr, .reason = "none"});
     outbox.answer(DiagnosticsAnswer{.reason = "no paths", .generation = 4});
     outbox.report({false, "one"});
     outbox.report({true, "two"});
-    CHECK(outbox.take_pick());
-    CHECK_FALSE(outbox.take_pick());
-    CHECK(outbox.take_learned()->reason == "none");
-    CHECK_FALSE(outbox.take_learned());
-    CHECK(outbox.take_diagnostics()->generation == 4);
-    CHECK_FALSE(outbox.take_diagnostics());
+    CHECK(outbox.take<PickAnswer>());
+    CHECK_FALSE(outbox.take<PickAnswer>());
+    CHECK(outbox.take<LearnedAnswer>()->reason == "none");
+    CHECK_FALSE(outbox.take<LearnedAnswer>());
+    CHECK(outbox.take<DiagnosticsAnswer>()->generation == 4);
+    CHECK_FALSE(outbox.take<DiagnosticsAnswer>());
     const auto messages = outbox.take_messages();
     REQUIRE(messages.size() == 2);
     CHECK(messages[1].text == "two");

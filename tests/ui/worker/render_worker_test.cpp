@@ -30,7 +30,7 @@ TEST_CASE("Render worker: a change stops a pass at rest, and the newest change w
     REQUIRE(frame_of(worker, 0));
     bench.control->hold = true;
     REQUIRE(eventually([&] { return bench.control->inside.load(); }));
-    worker.submit(EditMethod{MethodId::Precomputed});
+    worker.submit(MethodId::Precomputed);
     worker.submit(EditCamera{camera_at(1.0f)});
     const std::uint64_t last = worker.submit(EditCamera{camera_at(2.0f)});
     CHECK(eventually([&] { return bench.control->stopped >= 1; }));
@@ -209,9 +209,9 @@ TEST_CASE("Render worker: switching methods resumes the parked picture") {
     bench.control->pass_microseconds = 1000;
     RenderWorker worker(bench.setup());
     REQUIRE(eventually([&] { return worker.status().passes >= 10; }));
-    worker.submit(EditMethod{MethodId::Reinforcement});
+    worker.submit(MethodId::Reinforcement);
     REQUIRE(eventually([&] { return worker.latest()->snapshot.slot.method == MethodId::Reinforcement; }));
-    const auto back = frame_of(worker, worker.submit(EditMethod{MethodId::Default}));
+    const auto back = frame_of(worker, worker.submit(MethodId::Default));
     REQUIRE(back);
     CHECK(back->snapshot.slot.method == MethodId::Default);
     CHECK(back->snapshot.passes >= 10);
@@ -222,7 +222,7 @@ TEST_CASE("Render worker: the old picture stays until the radiance map is comput
     RenderWorker worker(bench.setup());
     REQUIRE(frame_of(worker, 0));
     bench.control->hold = true;
-    worker.submit(EditMethod{MethodId::Precomputed});
+    worker.submit(MethodId::Precomputed);
     REQUIRE(eventually([&] { return worker.status().state == WorkerState::Precomputing || bench.control->inside; }));
     CHECK(worker.latest()->snapshot.slot.method == MethodId::Default);
     bench.control->hold = false;

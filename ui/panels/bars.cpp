@@ -1,0 +1,172 @@
+#include <cctype>
+
+#include <fmt/format.h>
+
+#include "core/session/backend.h"
+#include "ui/draw/value_text.h"
+#include "ui/draw/widgets.h"
+#include "ui/input/perform_action.h"
+#include "ui/panels/panels.h"
+
+namespace pl::ui {
+namespace {
+
+void draw_recent_menu(ViewerModel& model) {
+    if (!ImGui::BeginMenu("Open recent")) return;
+    const std::vector<std::string> names = model.scene().recent().names();
+    for (const std::string& name : names)
+        if (ImGui::MenuItem(name.c_str())) model.scene().open(name);
+    ImGui::EndMenu();
+}
+
+/// One menu per group of the key table, without the held keys.
+void draw_group(ViewerModel& model, ActionGroup group) {
+    const bool is_open = ImGui::BeginMenu(name_of(group));
+    note_place(fmt::format("menu {}", name_of(group)).c_str());
+    if (!is_open) return;
+    for (const Action& action : all_actions()) {
+        if (action.group != group || action.is_held) continue;
+        std::string label = action.text;
+        label[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(label[0])));
+        if (ImGui::MenuItem(label.c_str(), action.keys.c_str())) perform(model, action);
+        note_place(action.text.c_str());
+    }
+    if (group == ActionGroup::File) draw_recent_menu(model);
+    ImGui::EndMenu();
+}
+
+}  // namespace
+
+void draw_menu_bar(ViewerModel& model, const Layout& layout) {
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {em(0.4f), 0.0f});
+    begin_fixed_window("menu", layout.menu, ImGuiWindowFlags_MenuBar | ImGuiWindowFlags_NoScrollbar);
+    ImGui::PopStyleVar();
+    if (ImGui::BeginMenuBar()) {
+        draw_group(model, ActionGroup::File);
+        draw_group(model, ActionGroup::Render);
+        draw_group(model, ActionGroup::Method);
+        draw_group(model, ActionGroup::View);
+        draw_group(model, ActionGroup::Overlay);
+        draw_group(model, ActionGroup::Compare);
+        draw_group(model, ActionGroup::Fly);
+        draw_group(model, ActionGroup::Window);
+        const std::string title = model.title();
+        const float start = ImGui::GetWindowWidth() - ImGui::CalcTextSize(title.c_str()).x - em(1.0f);
+        if (start > ImGui::GetCursorPosX()) {  // a narrow window has it in its title bar only
+            ImGui::SameLine(start);
+            ImGui::TextDisabled("%s", title.c_str());
+        }
+        ImGui::EndMenuBar();
+    }
+    ImGui::End();
+}
+
+namespace {
+
+/// Items in one line with bars between them.
+class StatusLine {
+public:
+    /// True if it was clicked.
+    bool add(const std::string& text, const char* tip, ImU32 color = colors::kText) {
+        if (!first_) {
+            ImGui::SameLine(0.0f, em(0.5f));
+            ImGui::TextDisabled("|");
+            ImGui::SameLine(0.0f, em(0.5f));
+        }
+        first_ = false;
+        ImGui::PushStyleColor(ImGuiCol_Text, color);
+        ImGui::TextUnformatted(text.c_str());
+        ImGui::PopStyleColor();
+        const bool is_clicked = ImGui::IsItemClicked();
+        tooltip(tip);
+        return is_clicked;
+    }
+
+private:
+    bool first_ = true;
+};
+
+void draw_counts(StatusLine& line, const ViewerModel& model) {
+    if (model.frame() == nullptr) return;
+    if (const auto& field = model.status().field)
+        line.add(passes_text(field->passes) + " learned",
+                 "Passes whose training samples the field has learned from. Camera moves keep the field.");
+}
+
+/// Counts of invalid samples, lost paths, lookup misses and clamped training samples; a click marks their pixels.
+void draw_diagnostics(StatusLine& line, ViewerModel& model) {
+    if (model.frame() == nullptr) return;
+    const diagnose::DiagnosticCounts counts = diagnose::counted_diagnostics(model.frame()->snapshot);
+    bool is_clicked = false;
+    bool is_valid = true;
+    for (const diagnose::DiagnosticInfo& diagnostics : diagnose::all_diagnostics()) {
+        const std::uint64_t count = counts[static_cast<std::size_t>(diagnostics.id)];
+        if (count == 0) continue;
+        is_valid = false;
+        const std::string tip = fmt::format("{}\nClick to mark the pixels (T).", diagnostics.meaning);
+        is_clicked |= line.add(fmt::format("{} {}", short_number(static_cast<double>(count)), diagnostics.label),
+                               tip.c_str(), colors::kWarning);
+        note_place(std::string(diagnostics.label).c_str());
+    }
+    if (is_valid) {
+        is_clicked |=
+            line.add("all samples valid",
+                     "No invalid sample, no path lost from a closed scene, no failed lookup of a radiance volume, no "
+                     "clamped training sample.",
+                     colors::kFaint);
+        note_place("all samples valid");
+    }
+    if (is_clicked) model.diagnostics().toggle();
+}
+
+/// Place and value of the pixel under the pointer.
+void draw_pointed(StatusLine& line, ViewerModel& model) {
+    const std::optional<PointedPixel>& pointed = model.window().pointed;
+    if (!pointed) return;
+    model.window().values_shown = true;
+    std::string text = fmt::format("{},{}", pointed->at.x, pointed->at.y);
+    if (const auto& value = pointed->value)
+        text += fmt::format(":  {}  {}  {}", short_value(value->x), short_value(value->y), short_value(value->z));
+    line.add(text, "Pixel under the pointer, from the top left, and its linear red, green and blue.");
+    note_place("pointed pixel");
+}
+
+std::string samples_text(const ViewerModel& model) {
+    const SampleLimits& limits = model.render().limits();
+    std::string text = limits.spp > 0 ? fmt::format("{}/{} spp", model.status().passes, limits.spp)
+                                      : fmt::format("{} spp", model.status().passes);
+    text += limits.seconds > 0.0 ? fmt::format(" | {:.1f}/{:g} s", model.status().seconds, limits.seconds)
+                                 : fmt::format(" | {:.1f} s", model.status().seconds);
+    return text;
+}
+
+}  // namespace
+
+void draw_status_bar(ViewerModel& model, const Layout& layout) {
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {em(0.6f), em(0.35f)});
+    begin_fixed_window("status", layout.status, ImGuiWindowFlags_NoScrollbar);
+    ImGui::PopStyleVar();
+    StatusLine line;
+    const WorkerState state = model.status().state;
+    line.add(name_of(state), "State of the rendering.",
+             state == WorkerState::Failed ? colors::kError
+                                          : (state == WorkerState::Rendering ? colors::kGood : colors::kWarning));
+    draw_diagnostics(line, model);
+    line.add(std::string(info_of(model.render().settings().method).label),
+             fmt::format("The method; keys {}.", method_keys()).c_str());
+    line.add(light_samples_text(model.render().settings().next_event),
+             "Key L: whether each path vertex samples a point on a light.");
+    if (model.frame() != nullptr)
+        line.add(back_end_label(model.status().backend), device_text(model.frame()->backend).c_str());
+    line.add(fmt::format("{}x{}", model.render().settings().width, model.render().settings().height),
+             "Size of the picture.");
+    line.add(samples_text(model),
+             "Samples per pixel, and their time: placement, precomputation, learning and rendering.");
+    line.add(fmt::format("{:.2f} Mpaths/s", model.link().throughput().mpaths_per_second()),
+             "Camera paths per second of rendering.");
+    draw_counts(line, model);
+    draw_pointed(line, model);
+    ImGui::End();
+}
+
+}  // namespace pl::ui
