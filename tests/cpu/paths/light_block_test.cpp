@@ -316,7 +316,7 @@ TEST_CASE("A scene without lights has no light samples") {
     block->clear(1);
     block->set_reached(1);
     const RoomPoint at = random_point(view, random);
-    put_vertex(*block, 0, Point{at.surface, at.bsdf}, {.light = random_numbers(random)});
+    put_vertex(*block, 0, LitPoint{at.surface, at.bsdf}, {.light = random_numbers(random)});
     lights->sample(*block);
     CHECK_FALSE(lights->is_wanted(0));
 }
