@@ -11,8 +11,7 @@
 
 namespace pl {
 
-// --checkpoint, --checkpoint-every and --resume: the state of a rendering, from one run of the program to the next.
-
+/// --checkpoint, --checkpoint-every and --resume: the state of a rendering, from one run of the program to the next.
 class CheckpointFiles {
 public:
     /// Reads the file of --resume, if it is given. Throws Error(Input) if it cannot be used, Error(Usage) for --checkpoint-every
@@ -47,8 +46,7 @@ private:
     Stopwatch since_last_;
 };
 
-// --load-field and --save-field: the learned field, from one run of the program to the next.
-
+/// --load-field and --save-field: the learned field, from one run of the program to the next.
 class FieldFiles {
 public:
     /// Reads the file of --load-field, if it is given. Throws Error(Input).

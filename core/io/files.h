@@ -34,9 +34,8 @@ inline void write_text_file_atomic(const std::filesystem::path& path, std::strin
     write_file_atomic(path, text);
 }
 
-// A temporary file beside its target, under a unique hidden name. The writer holds a lock on it, by which other
-// processes distinguish it from the leftovers of killed ones.
-
+/// A temporary file beside its target, under a unique hidden name. The writer holds a lock on it, by which other
+/// processes distinguish it from the leftovers of killed ones.
 class TemporaryFile {
 public:
     /// Creates the file beside `target`; error() returns the result.

@@ -51,8 +51,7 @@ private:
     std::vector<Note> notes_;
 };
 
-// The two readings of MTL materials with both a color and an image.
-
+/// The two readings of MTL materials with both a color and an image.
 enum class MapKd { Multiplies, Replaces };
 
 template <>

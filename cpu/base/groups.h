@@ -91,7 +91,7 @@ struct alignas(64) PointGroup {
     std::uint32_t wanted = 0;                                      ///< one bit per lane: its volume is looked up
     std::uint32_t cells = 0;  ///< one bit per lane in `wanted`: its place is a cell, once that is read one with nodes
 
-    /// Without the place.
+    /// All but the place, which a lookup finds.
     void set(std::uint32_t lane, const SurfacePoint& point) {
         position.set(lane, point.position);
         geometric_normal.set(lane, point.geometric_normal);

@@ -50,8 +50,8 @@ public:
     }
 
 private:
-    static constexpr std::uint8_t kNormal = 1;  ///< the normal is not that of the corners
-    static constexpr std::uint8_t kBsdf = 2;    ///< the BSDF is not that of a Lambert reflector of one color
+    static constexpr std::uint8_t kNormal = 1;  ///< the shading normal is not interpolated from the corners
+    static constexpr std::uint8_t kBsdf = 2;    ///< the BSDF is not a Lambert reflector of one color
 
     bool needs_normal([[maybe_unused]] std::uint32_t material) const {
         if constexpr (F.has(Feature::NormalMaps)) {

@@ -28,7 +28,7 @@ public:
                 .primitive = from.primitive[lane]};
     }
 
-    /// With them, which are in `points`.
+    /// With the material and the side, which are in `points`.
     SurfacePoint surface(std::uint32_t i, const PointGroup* points) const {
         SurfacePoint whole = surface(i);
         whole.material = points[i / kGroupSize].material[i % kGroupSize];
@@ -61,7 +61,7 @@ struct BlockMedia {
     std::uint32_t of[kPathBlock];
 };
 
-/// Vertex i is that of path i of the block, if it has reached one from which it may go on.
+/// Vertex i belongs to path i of the block, if the path has reached a vertex from which it may go on.
 template <FeatureSet F, Method M>
 class VertexBlock : public VertexRows {
 public:

@@ -223,7 +223,7 @@ private:
         else
             return paths_.rows.beside(path(k));
     }
-    /// Lanes have nothing to tell of ends but those of specular chains.
+    /// Of paths with hooks in lanes the method is told of the ends of specular chains alone.
     void terminate(std::uint64_t paths) {
         if constexpr (kTellsChains<F, M> || !kHooksInLanes<M>)
             for_bits(kHooksInLanes<M> ? paths & specular_ : paths, [&](std::uint32_t k) {

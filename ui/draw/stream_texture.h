@@ -44,8 +44,7 @@ private:
     int height_ = 0;
 };
 
-// Small pictures as textures of the window's renderer, for controls of Dear ImGui; each is uploaded once.
-
+/// Small pictures as textures of the window's renderer, for controls of Dear ImGui; each is uploaded once.
 class PictureTextures {
 public:
     explicit PictureTextures(SDL_Renderer* renderer) : renderer_(renderer) {}

@@ -14,9 +14,8 @@
 
 namespace pl::ui {
 
-// Cameras of the open scene that the user keeps, with small pictures, in a folder from one start to the next; at first those that
-// its file lists. In their order they are a camera path.
-
+/// Cameras of the open scene that the user keeps, with small pictures, in a folder from one start to the next; at first those that
+/// its file lists. In their order they are a camera path.
 class CameraBookmarks {
 public:
     struct Bookmark {

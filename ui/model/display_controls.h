@@ -81,8 +81,7 @@ LuminanceHistogram make_histogram(std::span<const Vec3f> pixels, std::size_t mos
 /// for a black picture.
 std::optional<float> automatic_exposure(const LuminanceHistogram& histogram);
 
-// The histogram of the picture in the window, and an exposure that follows it. Both look at values that were copied from the film.
-
+/// The histogram of the picture in the window, and an exposure that follows it. Both look at values that were copied from the film.
 class AutoExposure {
 public:
     /// The exposure stays while it is nearer to the wanted one, in stops: the noise of a picture must not make it flicker.

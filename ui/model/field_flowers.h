@@ -11,8 +11,7 @@
 
 namespace pl::ui {
 
-// The past of a learned field: key frames of it, and the one that the window shows in place of the present.
-
+/// The past of a learned field: key frames of it, and the one that the window shows in place of the present.
 class LearningTime {
 public:
     static constexpr int kStandardMegabytes = 256;

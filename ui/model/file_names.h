@@ -13,8 +13,7 @@
 
 namespace pl::ui {
 
-// Numbered file names that never overwrite an existing file.
-
+/// Numbered file names that never overwrite an existing file.
 class NumberedNames {
 public:
     /// "DIR/STEM-0001" without suffix. No file of this name with one of the suffixes exists, and it was not returned before.

@@ -15,8 +15,7 @@
 
 namespace pl::ui {
 
-// Saving the picture and the window as image files, and the command line that renders the picture again.
-
+/// Saving the picture and the window as image files, and the command line that renders the picture again.
 class PictureFiles {
 public:
     PictureFiles(const ModelServices& services, FileNames& names, const ViewedScene& scene,

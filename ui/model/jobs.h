@@ -18,9 +18,8 @@
 
 namespace pl::ui {
 
-// The helper thread: saving and loading, one job after the other. A job returns its report, a function that the
-// window's thread calls.
-
+/// The helper thread: saving and loading, one job after the other. A job returns its report, a function that the
+/// window's thread calls.
 class Jobs {
 public:
     using Report = std::function<void()>;
@@ -79,8 +78,7 @@ private:
     std::thread thread_;  ///< last: it uses all members above
 };
 
-// Background work with a progress bar: a thread of low priority, its progress, and a stop flag.
-
+/// Background work with a progress bar: a thread of low priority, its progress, and a stop flag.
 template <class Value>
 class BackgroundJob {
 public:

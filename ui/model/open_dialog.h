@@ -16,9 +16,8 @@
 
 namespace pl::ui {
 
-// Small pictures of the known scenes for the dialog that opens them: read from a folder, or rendered once, one scene
-// after the other, on a thread of low priority.
-
+/// Small pictures of the known scenes for the dialog that opens them: read from a folder, or rendered once, one scene
+/// after the other, on a thread of low priority.
 class SceneGallery {
 public:
     explicit SceneGallery(const ModelServices& services)

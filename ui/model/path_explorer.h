@@ -14,9 +14,8 @@
 
 namespace pl::ui {
 
-// The noise of the clicked pixel, traced in the background while a panel shows it: paths on a thread of low priority, on a clock of
-// their own.
-
+/// The noise of the clicked pixel, traced in the background while a panel shows it: paths on a thread of low priority, on a clock of
+/// their own.
 class NoiseTracing {
 public:
     /// Paths by each method after which the noise is not refined any more.

@@ -15,8 +15,7 @@
 
 namespace pl::ui {
 
-// Camera paths per second of rendering, over intervals of half a second of the render clock.
-
+/// Camera paths per second of rendering, over intervals of half a second of the render clock.
 class Throughput {
 public:
     static constexpr double kIntervalSeconds = 0.5;

@@ -15,8 +15,7 @@
 
 namespace pl::ui {
 
-// Radiance volumes that stay in view beside the selected one, each with a color of its own.
-
+/// Radiance volumes that stay in view beside the selected one, each with a color of its own.
 class PinnedVolumes {
 public:
     static constexpr std::size_t kMost = 4;

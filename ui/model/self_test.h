@@ -12,8 +12,7 @@
 
 namespace pl::ui {
 
-// The self test in the background: its checks as they finish, and its outcome.
-
+/// The self test in the background: its checks as they finish, and its outcome.
 class SelfTestRun {
 public:
     enum class Outcome { None, Running, Passed, Failed, Stopped, Broken };
@@ -52,8 +51,7 @@ private:
 
 const char* name_of(SelfTestRun::Outcome outcome);
 
-// The self test in the window: its dialog, its start and end. Rendering rests while it runs.
-
+/// The self test in the window: its dialog, its start and end. Rendering rests while it runs.
 class SelfTestControl {
 public:
     explicit SelfTestControl(const ModelServices& services)

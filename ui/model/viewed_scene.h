@@ -17,8 +17,7 @@
 
 namespace pl::ui {
 
-// The scenes opened last, by name or file.
-
+/// The scenes opened last, by name or file.
 class RecentFiles {
 public:
     static constexpr std::size_t kMost = 10;
@@ -82,8 +81,7 @@ private:
     std::optional<LoadOrder> waiting_;
 };
 
-// The materials of the scene in the window, as edited since it was loaded.
-
+/// The materials of the scene in the window, as edited since it was loaded.
 class EditedMaterials {
 public:
     explicit EditedMaterials(std::shared_ptr<const SceneDescription> file) { open(std::move(file)); }

@@ -53,8 +53,7 @@ void restore(const WindowMemory& memory, ViewerModel& model);
 
 const char* name_of(WindowLayout layout);
 
-// The file in which the window is remembered. Its faults never keep the viewer from starting, running or closing.
-
+/// The file in which the window is remembered. Its faults never keep the viewer from starting, running or closing.
 class RememberedWindow {
 public:
     /// A change is written after this time without another one.

@@ -10,8 +10,7 @@
 
 namespace pl::ui {
 
-// The target of a drag on the plot: the view or a cursor. Decided at the press and kept until the release.
-
+/// The target of a drag on the plot: the view or a cursor. Decided at the press and kept until the release.
 enum class PlotDrag { None, Pan, EqualCost, EqualError };
 
 /// Largest distance in pixels from which a cursor's line can be dragged.

@@ -16,9 +16,8 @@
 
 namespace pl::ui {
 
-// Pointer and buttons from events. Before 1.87 Dear ImGui's SDL code polls the global pointer instead, which is stale
-// during an X11 grab and misses scripted input.
-
+/// Pointer and buttons from events. Before 1.87 Dear ImGui's SDL code polls the global pointer instead, which is stale
+/// during an X11 grab and misses scripted input.
 class MouseTracker {
 public:
     void handle(const SDL_Event& event) {

@@ -68,9 +68,8 @@ private:
     MotionResolution motion_;
 };
 
-// The preview that takes the place of a noisy picture while the camera moves: few samples of the baseline without light samples
-// show a field of dots. Its films are its own or are emptied with it: no sample of a preview ever comes to the picture.
-
+/// The preview that takes the place of a noisy picture while the camera moves: few samples of the baseline without light samples
+/// show a field of dots. Its films are its own or are emptied with it: no sample of a preview ever comes to the picture.
 class MotionPreview {
 public:
     /// After the motion the last preview stays until the picture has this many passes or seconds of work.
