@@ -54,7 +54,7 @@ Json field_json(const std::optional<FieldStatus>& field) {
 Json guiding_json(const std::optional<GuidingStatus>& guiding) {
     if (!guiding) return nullptr;
     return {{"pays", guiding->pays},
-            {"predicted_gain", guiding->gain ? Json(*guiding->gain) : Json(nullptr)},
+            {"variance_ratio", guiding->variance_ratio ? Json(*guiding->variance_ratio) : Json(nullptr)},
             {"unguided_passes", guiding->unguided_passes},
             {"trial_paths", guiding->trial_paths}};
 }

@@ -11,7 +11,7 @@
 namespace pl {
 namespace {
 
-constexpr SealedKind kCheckpointKind{.magic = "PLCHECK\n", .version = 8, .title = "checkpoint", .word = "checkpoint"};
+constexpr SealedKind kCheckpointKind{.magic = "PLCHECK\n", .version = 9, .title = "checkpoint", .word = "checkpoint"};
 
 /// transfer(), also for the kinds of values that only checkpoints hold. Each works for writing, with constant values, and for
 /// reading.
@@ -67,7 +67,7 @@ public:
     void counters(Counters& counters) {
         PassCounters copy = counters;
         add_counters(copy, counters, [this](auto& value, const auto&) { one(value); });
-        all(copy.variance.sum, copy.variance.relative, copy.variance.samples);
+        all(copy.variance.sum, copy.variance.samples);
         if constexpr (!std::is_const_v<Counters>) counters = copy;
     }
 
@@ -80,8 +80,7 @@ public:
         GuidingChoice::each_value(film.guiding, [this](auto& value) { one(value); });
         all(film.is_guided, film.trains, film.unguided_passes, film.trial_paths);
         counters(film.measured);
-        counters(film.trial.guided);
-        counters(film.trial.baseline);
+        counters(film.trial);
         each(film.runs, [this](auto& run) {
             all(run.first_pass, run.first_sample, run.sequences.name, run.sequences.first_sample, run.is_guided,
                 run.trains);

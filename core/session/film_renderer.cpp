@@ -133,7 +133,7 @@ std::uint32_t FilmRenderer::equal_passes(FilmSlot slot, std::uint32_t most) cons
     if (!learns && !chooses) return most;
     const std::uint64_t left = learns ? inputs_.settings.learn_passes - fields_.trained_passes(slot.method) : most;
     const auto is_equal = [&](std::uint32_t pass) {
-        if (chooses && is_chosen_after(pass)) return false;
+        if (chooses && GuidingChoice::is_due_before(pass)) return false;
         return !learns || (!fields_.is_update_due(slot.method, pass) &&
                            fields_.is_trained_by_pass(slot.method, pass) == film.trains);
     };
@@ -192,7 +192,7 @@ void FilmRenderer::render_part(FilmSlot slot, std::uint32_t end, const StopFlag*
     request.first_pixel = film.next_pixel;
     request.end_pixel = end;
     request.most_passes = most_passes;
-    if (guiding_.chooses(slot) && film.passes >= kFewestBeforeVariance) request.use = SampleUse::Measured;
+    if (guiding_.measures(slot, film)) request.use = SampleUse::Measured;
     const PassCounters counters = backend().run_pass(request);
     film.render_seconds += watch.seconds();
     film.counters += counters;

@@ -39,32 +39,23 @@ std::uint32_t GuidedPasses::trial_step() const {
     return std::clamp(inputs_.pixel_count() / kTrialPaths, 1u, kLargestStep);
 }
 
-GuidingTerms GuidedPasses::terms(FilmSlot slot) const {
-    using Field = GuidingTerms::Field;
-    const bool learns = info_of(slot.method).learns;
-    return {.costs = PathCosts::of(inputs_.scene.packed()->triangles.size(), inputs_.needed_features(slot),
-                                   representation_of(inputs_.settings.field, slot.method), learns),
-            .pixels = static_cast<double>(inputs_.pixel_count()),
-            .volumes = static_cast<double>(fields_.placement().count()),
-            .field = learns                                 ? Field::Learning
-                     : fields_.is_map_complete(slot.method) ? Field::Complete
-                                                            : Field::Coarse};
+double GuidedPasses::least_ratio(FilmSlot slot) const {
+    return GuidingChoice::least_ratio(guidance_of(representation_of(inputs_.settings.field, slot.method)));
 }
 
 bool GuidedPasses::is_choice_due(FilmSlot slot, const FilmProgress& film) const {
-    return !film.is_under_way() && chooses(slot) && is_chosen_after(film.passes);
+    return !film.is_under_way() && chooses(slot) && GuidingChoice::is_due_before(film.passes);
 }
 
 bool GuidedPasses::choose(FilmSlot slot, FilmProgress& film, const PassRequest& pass) {
     const bool knows =
         info_of(slot.method).learns && (fields_.progress(slot.method).passes > 0 || fields_.is_frozen(slot.method));
-    if (knows && film.guiding.is_warming_up()) film.guiding.trust_field();
-    if (!warms_up(slot)) film.guiding.begin_guided();
+    if (knows || !warms_up(slot)) film.guiding.begin_guided();
     if (film.guiding.is_warming_up() && !warm_up(slot, film, pass)) return false;
     const Trial trial = film.guiding.trial_before(film.passes);
-    if (trial.is_due()) {
+    if (trial != Trial::None) {
         if (!run_trial(film, trial, pass)) return false;
-        film.guiding.measure_trial(film.passes, film.trial.guided, film.trial.baseline, terms(slot));
+        film.guiding.measure_trial(film.passes, film.trial);
         film.trial = {};
     }
     film.measured = {};
@@ -76,8 +67,8 @@ bool GuidedPasses::choose(FilmSlot slot, FilmProgress& film, const PassRequest& 
 /// the picture has none of these samples, the choice is independent of it. Returns false if it was stopped.
 bool GuidedPasses::warm_up(FilmSlot slot, FilmProgress& film, const PassRequest& pass) {
     while (film.guiding.is_warming_up()) {
-        if (!run_trial(film, film.guiding.warm_up_round(terms(slot)), pass)) return false;
-        film.guiding.measure_round(film.trial.guided, film.trial.baseline, terms(slot));
+        if (!run_trial(film, film.guiding.warm_up_trial(), pass)) return false;
+        film.guiding.measure_warm_up(film.trial, least_ratio(slot));
         film.trial = {};
     }
     inputs_.backend->reset_film(slot, inputs_.settings.width, inputs_.settings.height);
@@ -88,7 +79,7 @@ bool GuidedPasses::warm_up(FilmSlot slot, FilmProgress& film, const PassRequest&
 bool GuidedPasses::run_trial(FilmProgress& film, Trial trial, const PassRequest& pass) {
     const Stopwatch watch;
     const MethodId method = pass.slot.method;
-    PassCounters& done = trial.is_guided ? film.trial.guided : film.trial.baseline;
+    PassCounters& done = film.trial;
     PassRequest request = trial_request(film, trial, pass);
     const std::uint32_t end = request.subset.count(inputs_.pixel_count());
     request.first_pixel = static_cast<std::uint32_t>(done.paths);
@@ -106,34 +97,35 @@ bool GuidedPasses::run_trial(FilmProgress& film, Trial trial, const PassRequest&
 /// Whether the paths of a trial train the field: guided ones, and in a warm-up those of the baseline, by the kernel of the method that
 /// learns. The latter meet light that the field does not know as often as light that it knows.
 bool GuidedPasses::trains_by(const FilmProgress& film, MethodId method, Trial trial) const {
-    const bool is_training = trial.is_guided || film.guiding.is_warming_up();
+    const bool is_training = trial == Trial::Guided || film.guiding.is_warming_up();
     return is_training && info_of(method).learns && !fields_.is_frozen(method);
 }
 
-/// Paths of the warm-up come to the film, because later ones are measured against it; all others leave it as it is.
+/// Paths of the warm-up come to the film, because later ones are measured against it, but for those of the baseline that are measured;
+/// all others leave it as it is.
 PassRequest GuidedPasses::trial_request(const FilmProgress& film, Trial trial, PassRequest request) const {
     const FilmSlot slot = request.slot;
-    const bool is_warm_up = film.guiding.is_warming_up();
-    request.is_guided = trial.is_guided || trains_by(film, slot.method, trial);
-    if (!trial.is_guided) {
+    const bool is_guided = trial == Trial::Guided;
+    request.is_guided = is_guided || trains_by(film, slot.method, trial);
+    if (!is_guided) {
         request.path = path_settings(inputs_.settings, baseline_method());
         request.path.roulette = RouletteRule::Albedo;
         request.mixture = MixtureSettings::unguided();
     }
-    request.path.stream = is_warm_up ? Stream::WarmUp : Stream::Trial;
+    request.path.stream = Stream::Trial;
     request.trains = !fields_.is_frozen(slot.method);
+    request.use = SampleUse::Trial;
     // A small picture has few paths to spare beside its passes.
-    request.subset.step = trial_step() * (trial.is_guided || warms_up(slot) ? 1 : 2);
-    if (is_warm_up) {
-        request.sample = film.guiding.rounds();
+    request.subset.step = trial_step() * (is_guided || warms_up(slot) ? 1 : 2);
+    if (film.guiding.is_warming_up()) {
+        request.sample = film.guiding.warm_up_round();
         request.passes = request.sample + 1;
-        request.use = request.sample < kFewestBeforeVariance ? SampleUse::Film : SampleUse::Measured;
+        const bool is_measured = GuidingChoice::is_measured(request.sample);
+        if (is_measured && !is_guided) return request;
+        request.path.stream = Stream::WarmUp;
+        request.use = is_measured ? SampleUse::Measured : SampleUse::Film;
     } else {
-        if (trial.passes > 0.0)
-            request.subset.step = static_cast<std::uint32_t>(
-                std::clamp(1.0 / trial.passes, 1.0, static_cast<double>(request.subset.step)));
         request.subset.phase = film.passes % request.subset.step;
-        request.use = SampleUse::Trial;
     }
     return request;
 }
@@ -141,13 +133,13 @@ PassRequest GuidedPasses::trial_request(const FilmProgress& film, Trial trial, P
 void GuidedPasses::finish_pass(FilmSlot slot, FilmProgress& film) const {
     if (!chooses(slot)) return;
     if (!film.is_guided) ++film.unguided_passes;
-    if (is_chosen_after(film.passes + 1)) film.guiding.measure_pass(film.passes, film.measured, terms(slot));
+    if (measures(slot, film)) film.guiding.measure_pass(film.passes, film.measured, least_ratio(slot));
 }
 
 std::optional<GuidingStatus> GuidedPasses::status(FilmSlot slot, const FilmProgress& film) const {
     if (!chooses(slot)) return std::nullopt;
     return GuidingStatus{.pays = film.guiding.pays(),
-                         .gain = film.guiding.gain(),
+                         .variance_ratio = film.guiding.variance_ratio(),
                          .unguided_passes = film.unguided_passes,
                          .trial_paths = film.trial_paths};
 }

@@ -25,10 +25,14 @@ public:
 
     /// Whether choose() is due before a pass that begins.
     bool is_choice_due(FilmSlot slot, const FilmProgress& film) const;
+    /// Whether the variance of the pass under way is measured.
+    bool measures(FilmSlot slot, const FilmProgress& film) const {
+        return chooses(slot) && GuidingChoice::is_measured(film.passes);
+    }
     /// Decides about the passes that begin, up to the next choice. `pass`: the request for a whole one, by the method. Returns false if
     /// the trials before them were stopped: the next call resumes them.
     bool choose(FilmSlot slot, FilmProgress& film, const PassRequest& pass);
-    /// Counts a pass that has ended, and measures all since the last choice if another one follows.
+    /// Counts a pass that has ended, and measures it if it is one that decides.
     void finish_pass(FilmSlot slot, FilmProgress& film) const;
 
     /// See Session::guiding_status().
@@ -36,7 +40,7 @@ public:
 
 private:
     std::uint32_t trial_step() const;
-    GuidingTerms terms(FilmSlot slot) const;
+    double least_ratio(FilmSlot slot) const;
     bool warm_up(FilmSlot slot, FilmProgress& film, const PassRequest& pass);
     bool run_trial(FilmProgress& film, Trial trial, const PassRequest& pass);
     bool trains_by(const FilmProgress& film, MethodId method, Trial trial) const;

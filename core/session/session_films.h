@@ -12,12 +12,6 @@
 
 namespace pl {
 
-/// Progress of a trial, see GuidingChoice: guided paths first.
-struct TrialProgress {
-    PassCounters guided{};
-    PassCounters baseline{};
-};
-
 /// Progress of one film.
 struct FilmProgress {
     FilmOrigin origin{};
@@ -33,7 +27,7 @@ struct FilmProgress {
     bool trains = true;       ///< the pass under way, or the last one, trains the field if its method learns
     PassCounters measured{};  ///< since guiding was last chosen
     std::uint32_t unguided_passes = 0;
-    TrialProgress trial{};
+    PassCounters trial{};  ///< of the trial under way
     std::uint64_t trial_paths = 0;
     std::vector<PassRun> runs{};     ///< of all passes, the one under way included
     std::uint64_t updates_seen = 0;  ///< FieldProgress::updates at the beginning of the last run

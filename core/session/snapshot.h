@@ -52,8 +52,8 @@ struct FieldStatus {
 
 /// The choice between guided passes and those of the baseline method, see GuidingChoice.
 struct GuidingStatus {
-    bool pays = true;            ///< the next passes are guided, as far as is known
-    std::optional<double> gain;  ///< predicted equal-time factor; empty before it is measured
+    bool pays = true;                      ///< the next passes are guided, as far as is known
+    std::optional<double> variance_ratio;  ///< GuidingChoice::variance_ratio()
     std::uint32_t unguided_passes = 0;
     std::uint64_t trial_paths = 0;  ///< of the warm-up and of trials, which are no part of the picture
 };

@@ -30,12 +30,6 @@ constexpr std::uint32_t update_interval(std::uint32_t passes) { return std::max(
 /// Whether an update follows so many complete passes.
 constexpr bool is_updated_after(std::uint32_t passes) { return passes % update_interval(passes) == 0; }
 
-/// Whether guiding is chosen anew after so many complete passes: after each of the first sixteen, then after an eighth as many as there
-/// are, at most sixteen. Between two choices, and two updates, a back end may render all passes at once.
-constexpr bool is_chosen_after(std::uint32_t passes) {
-    return passes % std::clamp(std::bit_floor(passes) / 8, 1u, 16u) == 0;
-}
-
 /// Training samples per volume, on the mean, from which on a field gains little by further ones: 64 per cell of the default
 /// (docs/notebook/2026-11-25-rare-training.md).
 inline constexpr std::uint64_t kEnoughSamplesPerVolume = 16384;

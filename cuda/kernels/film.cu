@@ -17,7 +17,6 @@ __global__ void __launch_bounds__(kThreadsPerBlock)
     if (samples.use == SampleUse::Film) return;
     VarianceSums& totals = samples.counters->variance;
     add_up(totals.sum, sums.sum);
-    add_up(totals.relative, sums.relative);
     add_up(totals.samples, sums.samples);
 }
 

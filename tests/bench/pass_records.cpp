@@ -1,7 +1,7 @@
 // The picture of every single pass of a film, for trials of rules that choose between kinds of passes or weigh them
 // (docs/notebook/2026-11-29-shares-of-passes.md).
 // Usage: pass_records SCENE METHOD SIDE PASSES SEED FILE. METHOD: default, or reinforcement, each of whose passes is guided. FILE gets
-// for each pass four doubles, its seconds, segments and the mean variances of a sample, and SIDE x SIDE pixels of three floats.
+// for each pass two doubles, its seconds and segments, and SIDE x SIDE pixels of three floats.
 #include <algorithm>
 #include <array>
 #include <cstdio>
@@ -62,9 +62,7 @@ void record(Session& session, const Recording& recording) {
         while (session.advance(recording.slot) != Progress::Rendered) continue;
         const Snapshot now = session.snapshot(recording.slot);
         const double spent = now.clocks.render + now.clocks.learn;
-        const std::array<double, 4> counts{spent - seconds,
-                                           static_cast<double>(now.counters.path.segments - segments),
-                                           now.counters.variance.mean(), now.counters.variance.relative_mean()};
+        const std::array counts{spent - seconds, static_cast<double>(now.counters.path.segments - segments)};
         seconds = spent;
         segments = now.counters.path.segments;
         const std::vector<float> picture = pictures.next(now.pixels);

@@ -6,7 +6,7 @@ set -euo pipefail
 source=$1 build=$2
 
 # Unity build: as few large sources as there can be, whose templates are compiled once.
-cmake -S "$source" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=RelWithDebInfo -DCMAKE_CXX_FLAGS_RELWITHDEBINFO="-O1 -g" \
+cmake -S "$source" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=RelWithDebInfo -DCMAKE_CXX_FLAGS_RELWITHDEBINFO="-O1 -g1" \
     -DCMAKE_UNITY_BUILD=ON -DPL_SANITIZE=address,undefined -DPL_CUDA=OFF -DPL_MPI=OFF -DPL_TESTS=OFF >"$build.log" 2>&1 ||
     { cat "$build.log"; exit 1; }
 cmake --build "$build" --target pathlight -j 2 >>"$build.log" 2>&1 || { tail -50 "$build.log"; exit 1; }

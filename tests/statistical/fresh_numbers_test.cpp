@@ -120,6 +120,11 @@ std::uint32_t passes_for(const Learner& learner) {
     return learner.representation == Representation::SdTree ? 288 : 96;
 }
 
+/// Seeds by which pictures of 64 x 64 pixels after 256 passes resolve 0.02 % under a patch.
+std::uint64_t seeds_for(const Learner& learner) {
+    return learner.representation == Representation::SdTree && !learner.next_event ? 500 : 320;
+}
+
 // Seeds 1 to 64, alpha 1e-6 per decision. An SD-tree was off by 0.3 % after 256 passes while its numbers went on through updates. The
 // network, which is slower, is in the nightly tier.
 TEST_CASE("Pictures of learners under a bright patch have no bias of 0.1 % while tables change") {
@@ -129,7 +134,7 @@ TEST_CASE("Pictures of learners under a bright patch have no bias of 0.1 % while
 }
 TEST_CASE("Pictures of learners under a bright patch have no bias of 0.02 % while tables change", "[nightly]") {
     const KnownScene patch = plane_under_patch();
-    for (const Learner& learner : kLearners) check(patch, learner, {64, 256, 320, kNightly});
+    for (const Learner& learner : kLearners) check(patch, learner, {64, 256, seeds_for(learner), kNightly});
 }
 
 // 12 x 12 pixels: a pixel's own samples are a large part of those that train its tables. Seeds 1 to 100, in the nightly tier 1 to 600

@@ -60,15 +60,15 @@ private:
     float right_;
 };
 
-/// Whether guiding pays in this picture, by the variance and the cost of single paths as its passes have measured them: not by the
-/// error of the picture, which even numbers lower for the baseline, too.
+/// Whether guiding pays in this picture, by the variance of single paths that both methods have traced: not by the error of the picture,
+/// which even numbers lower for the baseline, too.
 void add_guiding_badge(BadgeRow& row, const GuidingStatus& guiding) {
+    const std::string ratio = ratio_text(*guiding.variance_ratio);
     if (guiding.pays)
-        row.add(fmt::format("guiding pays: {}x by a path's variance and cost", ratio_text(*guiding.gain)),
-                colors::kGood);
+        row.add(fmt::format("guiding pays: {}x less variance of a path", ratio), colors::kGood);
     else
-        row.add(fmt::format("guiding given up: {}x by a path's variance and cost, {} by Default",
-                            ratio_text(*guiding.gain), passes_text(guiding.unguided_passes)),
+        row.add(fmt::format("guiding given up: {}x less variance of a path, {} by Default", ratio,
+                            passes_text(guiding.unguided_passes)),
                 colors::kWarning);
 }
 
@@ -89,7 +89,7 @@ void add_picture_badges(BadgeRow& row, const PublishedFrame& frame) {
                 colors::kText);
     else
         row.add(fmt::format("{}  {}  {} spp", info_of(view).label, back_end, snapshot.passes), colors::kText);
-    if (snapshot.guiding && snapshot.guiding->gain) add_guiding_badge(row, *snapshot.guiding);
+    if (snapshot.guiding && snapshot.guiding->variance_ratio) add_guiding_badge(row, *snapshot.guiding);
     if (frame.preview == Preview::LightSamples) row.add("while moving: preview with light samples", colors::kWarning);
     if (frame.preview == Preview::RadianceMap)
         row.add("while moving: preview by the learned radiance map", colors::kWarning);

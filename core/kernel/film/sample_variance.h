@@ -6,46 +6,40 @@
 
 namespace pl {
 
-/// Sums over pixels of the variance of one sample, the mean of its channels: the integrand of an MSE, and that of a relMSE. Signed fixed
-/// point in two's complement: the same for every order of the samples.
+/// Sums over pixels of the relative variance of one sample, the mean of its channels: the integrand of a relMSE. Signed fixed point in
+/// two's complement: the same for every order of the samples.
 struct VarianceSums {
-    std::uint64_t sum = 0;       ///< in steps
-    std::uint64_t relative = 0;  ///< in steps, over the squared mean of the pixel; biased, see measure_variance()
-    std::uint64_t samples = 0;   ///< measured ones
+    std::uint64_t sum = 0;      ///< in steps; biased, see measure_variance()
+    std::uint64_t samples = 0;  ///< measured ones
 
-    /// Contributions of one sample are clamped here, so that a single path decides nothing: far above white, because rare bright
-    /// paths are most of the variance that guiding can take away (docs/notebook/2026-11-25-choice-at-512.md).
-    static constexpr float kMost = 4096.0f;
-    static constexpr double kSteps = 0x1p24;  ///< per unit: 2^26 samples of the largest size do not overflow
+    /// Contributions of one sample are clamped here, so that a single path decides nothing: far above 1, because rare bright paths are
+    /// most of the variance that guiding can take away (docs/notebook/2026-11-29-one-ratio.md).
+    static constexpr float kMost = 1024.0f;
+    static constexpr double kSteps = 0x1p24;  ///< per unit: 2^28 samples of the largest size do not overflow
     /// Added to the squared mean, as in relMSE (core/measure).
     static constexpr float kLeastSquare = 0.01f;
 
     VarianceSums& operator+=(const VarianceSums& other) {
         sum += other.sum;
-        relative += other.relative;
         samples += other.samples;
         return *this;
     }
 
-    /// The mean variance of a measured sample; 0 if none was measured.
-    double mean() const { return mean_of(sum); }
-    double relative_mean() const { return mean_of(relative); }
+    /// The mean relative variance of a measured sample; 0 if none was measured.
+    double mean() const {
+        if (samples == 0) return 0.0;
+        return static_cast<double>(static_cast<std::int64_t>(sum)) / (kSteps * static_cast<double>(samples));
+    }
 
-    /// Adds the variance of one sample, by channels. The relative sum divides it by mean^2 + kLeastSquare.
+    /// Adds the variance of one sample, by channels, over mean^2 + kLeastSquare.
     PL_HD void add(Vec3f variance, Vec3f mean) {
         const Vec3f over = variance / (mean * mean + Vec3f{kLeastSquare});
-        sum += steps_of((variance.x + variance.y + variance.z) * kThird);
-        relative += steps_of((over.x + over.y + over.z) * kThird);
+        sum += steps_of((over.x + over.y + over.z) * kThird);
         ++samples;
     }
 
 private:
     static constexpr float kThird = 1.0f / 3.0f;
-
-    double mean_of(std::uint64_t steps) const {
-        if (samples == 0) return 0.0;
-        return static_cast<double>(static_cast<std::int64_t>(steps)) / (kSteps * static_cast<double>(samples));
-    }
 
     /// The largest one for the difference of two infinities, too.
     PL_HD static std::uint64_t steps_of(float value) {
@@ -73,14 +67,10 @@ struct PixelSubset {
     PL_HD std::uint32_t number(std::uint32_t pixel) const { return pixel / step; }
 };
 
-/// Fewest earlier passes of a film whose pixels are measured: their mean is a part of the estimator, and until then lamps are
-/// looked for.
-inline constexpr std::uint32_t kFewestBeforeVariance = 3;
-
 /// Measures the variance of a sample that is about to come to a pixel. With the mean m of earlier samples, L (L - m) is an
 /// unbiased estimate of the variance of an independent sample L. Samples of one half of the film are spread evenly, and so
-/// depend on one another: m is the mean of the half that the pass does not belong to. Divided by m^2 it has a bias that is the same for
-/// all methods of one mean, and vanishes with the number of samples behind m. Pixels that see a lamp are left out: their
+/// depend on one another: m is the mean of the half that the pass does not belong to. Divided by m^2 it has a bias that vanishes with the
+/// number of samples behind m: methods are compared against the same m. Pixels that see a lamp are left out: their
 /// variance is that of emission, which no sampling of directions changes, see camera_emission.h.
 PL_HD inline void measure_variance(const FilmPixel& pixel, Vec3f radiance, std::uint32_t pass, VarianceSums& sums) {
     const bool sees_lamp = pixel.emission.is_lit() || pixel.emission.varies != 0 || pixel.emission.at_border != 0;

@@ -19,10 +19,10 @@ CLAMPS = (16, 256, 4096)
 
 def load(path, side):
     """Seconds of each pass, and its picture."""
-    size = 32 + 12 * side * side
+    size = 16 + 12 * side * side
     raw = np.fromfile(path, dtype=np.uint8).reshape(-1, size)
     seconds = raw[:, :8].copy().view(np.float64)[:, 0]
-    return seconds, raw[:, 32:].copy().view(np.float32).reshape(-1, side, side, 3)
+    return seconds, raw[:, 16:].copy().view(np.float32).reshape(-1, side, side, 3)
 
 
 def tiles(picture):

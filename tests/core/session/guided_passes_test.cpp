@@ -1,5 +1,5 @@
 // Sessions that give up guiding where it does not pay: the same bits for any threads and stops, trials and warm-ups leave no trace
-// in the film, and rare trials go on learning.
+// in the film.
 #include "core/scene/pack_scene.h"
 #include "core/session/path_settings.h"
 #include "tests/core/session/interruption.h"
@@ -13,7 +13,7 @@ using namespace pl::test;
 
 namespace {
 
-constexpr std::uint32_t kGuidedPasses = 60;
+constexpr std::uint32_t kPasses = 20;
 
 /// Of the least size that has a warm-up.
 RenderSettings large_picture(RenderSettings settings) {
@@ -27,17 +27,17 @@ TEST_CASE("Guiding is given up where it changes nothing but the cost, by both gu
     const SceneDescription scene = shipped_scene("door");
     for (const MethodId method : {MethodId::Precomputed, MethodId::Reinforcement}) {
         Session session = make_session(scene, settings_without_gain(scene, method));
-        render_passes(session, 2 * kGuidedPasses);
+        render_passes(session, kPasses);
         const auto status = session.guiding_status(slot_of(session));
         REQUIRE(status);
-        REQUIRE(status->gain);
-        INFO(info_of(method).name << ": " << *status->gain);
-        CHECK(*status->gain < 0.9);
-        CHECK(*status->gain > 0.3);
+        REQUIRE(status->variance_ratio);
+        INFO(info_of(method).name << ": " << *status->variance_ratio);
+        CHECK(*status->variance_ratio < 1.36);
+        CHECK(*status->variance_ratio > 0.7);
         CHECK_FALSE(status->pays);
-        CHECK(status->unguided_passes > kGuidedPasses / 4);
-        CHECK(status->trial_paths >= 40 * 40);  // two trials of half the pixels, then guided ones
-        CHECK(session.snapshot(slot_of(session)).counters.paths == std::uint64_t{2 * kGuidedPasses} * 40 * 40);
+        CHECK(status->unguided_passes == kPasses - 8);
+        CHECK(status->trial_paths == 4 * 40 * 40 / 2);
+        CHECK(session.snapshot(slot_of(session)).counters.paths == std::uint64_t{kPasses} * 40 * 40);
     }
 }
 
@@ -46,7 +46,7 @@ TEST_CASE("Guiding is kept where every pass shall be guided, and by methods with
     RenderSettings settings = settings_without_gain(scene, MethodId::Reinforcement);
     settings.guiding = GuidingRule::Always;
     Session always = make_session(scene, settings);
-    render_passes(always, kGuidedPasses);
+    render_passes(always, kPasses);
     CHECK_FALSE(always.guiding_status(slot_of(always)));
     CHECK(always.snapshot(slot_of(always)).counters.path.method.lookups > 0);
     settings.guiding = GuidingRule::Paying;
@@ -58,7 +58,7 @@ TEST_CASE("Guiding is kept where every pass shall be guided, and by methods with
 }
 
 TEST_CASE("Trials leave no trace in film and field") {
-    constexpr std::uint32_t kUndecided = 7;  // passes with both trials, before the first decision takes effect
+    constexpr std::uint32_t kUndecided = 8;  // passes with all trials, before the decision takes effect
     const SceneDescription scene = shipped_scene("door");
     RenderSettings settings = settings_without_gain(scene, MethodId::Reinforcement);
     Session session = make_session(scene, settings);
@@ -77,30 +77,16 @@ TEST_CASE("Threads and stops do not change a bit of a film that guiding was give
     const SceneDescription scene = shipped_scene("door");
     const RenderSettings settings = settings_without_gain(scene, MethodId::Reinforcement);
     Session one = make_session(scene, settings);
-    render_passes(one, kGuidedPasses);
+    render_passes(one, kPasses);
     const State expected = state_of(one);
     REQUIRE(one.guiding_status(slot_of(one))->unguided_passes > 0);
     Session three = make_session(scene, settings, 3);
-    render_passes(three, kGuidedPasses);
+    render_passes(three, kPasses);
     CHECK(same_state(expected, state_of(three)));
-    CHECK(three.guiding_status(slot_of(three))->gain == one.guiding_status(slot_of(one))->gain);
+    CHECK(three.guiding_status(slot_of(three))->variance_ratio == one.guiding_status(slot_of(one))->variance_ratio);
     Session stopped = make_session(scene, settings, 2);
-    CHECK(render_with_stops(stopped, kGuidedPasses) > 0);
+    CHECK(render_with_stops(stopped, kPasses) > 0);
     CHECK(same_state(expected, state_of(stopped)));
-}
-
-TEST_CASE("A field goes on learning from rare guided trials") {
-    const SceneDescription scene = shipped_scene("door");
-    Session session = make_session(scene, settings_without_gain(scene, MethodId::Reinforcement));
-    const FilmSlot slot = slot_of(session);
-    render_passes(session, kGuidedPasses);
-    const std::uint64_t records = session.field_status(MethodId::Reinforcement)->records;
-    const GuidingStatus before = *session.guiding_status(slot);
-    render_passes(session, 400);
-    const GuidingStatus after = *session.guiding_status(slot);
-    CHECK(session.field_status(MethodId::Reinforcement)->records > records);
-    CHECK(after.trial_paths > before.trial_paths);
-    CHECK(after.unguided_passes == before.unguided_passes + 400);
 }
 
 TEST_CASE("A large picture that guiding does not pay in has every bit of the baseline's") {
@@ -116,7 +102,7 @@ TEST_CASE("A large picture that guiding does not pay in has every bit of the bas
         const GuidingStatus status = *session.guiding_status(slot);
         CHECK_FALSE(status.pays);
         CHECK(status.unguided_passes == kFewPasses);
-        CHECK(status.trial_paths >= 6 * 16384);
+        CHECK(status.trial_paths == 12 * 16384);
         CHECK(session.snapshot(slot).pixels == plain.snapshot(slot_of(plain)).pixels);
         CHECK(session.snapshot(slot).counters.paths == std::uint64_t{kFewPasses} * 256 * 256);
         CHECK(session.field_status(method)->records > 0);
@@ -171,10 +157,10 @@ TEST_CASE(
     render_passes(session, 1);
     const GuidingStatus status = *session.guiding_status(slot);
     CHECK(status.pays);
-    REQUIRE(status.gain);
-    CHECK(*status.gain > 1.0);
+    REQUIRE(status.variance_ratio);
+    CHECK(*status.variance_ratio > 1.3);
     CHECK(status.unguided_passes == 0);
-    CHECK(status.trial_paths >= 5 * 16384);
+    CHECK(status.trial_paths == 12 * 16384);
     CHECK(session.pass_replay(slot).is_guided(0));
     CHECK(session.snapshot(slot).counters.paths == 256 * 256);
     // Another camera needs no other warm-up.
@@ -187,7 +173,7 @@ TEST_CASE(
     // A field that is forgotten does.
     session.apply(EditForget{});
     render_passes(session, 1);
-    CHECK(session.guiding_status(slot)->trial_paths >= 5 * 16384);
+    CHECK(session.guiding_status(slot)->trial_paths == 12 * 16384);
 }
 
 TEST_CASE("Threads and stops do not change a bit of a warm-up and of the film after it") {
@@ -210,10 +196,10 @@ TEST_CASE("Threads and stops do not change a bit of a warm-up and of the film af
 TEST_CASE("A replay knows the passes that were not guided") {
     const SceneDescription scene = shipped_scene("door");
     Session session = make_session(scene, settings_without_gain(scene, MethodId::Reinforcement));
-    render_passes(session, kGuidedPasses);
+    render_passes(session, kPasses);
     const PassReplay replay = session.pass_replay(slot_of(session));
     std::uint32_t unguided = 0;
-    for (std::uint32_t pass = 0; pass < kGuidedPasses; ++pass) unguided += replay.is_guided(pass) ? 0u : 1u;
+    for (std::uint32_t pass = 0; pass < kPasses; ++pass) unguided += replay.is_guided(pass) ? 0u : 1u;
     CHECK(replay.is_guided(0));
     CHECK(unguided == session.guiding_status(slot_of(session))->unguided_passes);
 }

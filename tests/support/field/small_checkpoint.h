@@ -35,8 +35,7 @@ inline Checkpoint small_checkpoint() {
     film.progress.runs = {{}, {1, 5, {10, 5}, false, false}, {3, 7, {14, 7}, true, true}};
     film.progress.updates_seen = 4;
     film.progress.counters.path.method.lookup_misses = 77;
-    film.progress.counters.variance.sum = 5;
-    film.progress.counters.variance.relative = 6;
+    film.progress.counters.variance = {5, 6};
     film.progress.guiding.begin_guided();
     film.pixels[4].second_sum = Vec3d{0.1, 0.2, 1.0e300};
     film.pixels[5].emission = {.value = 9, .varies = 3, .at_border = 1};
