@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
-"""Writes results.md of the folder of a bench, with its plots of error against time.
+"""Writes results.md of the folder of a bench, with its plots of error against time and its results.json, compressed.
 
 Usage: make_results.py BENCH   (after `pathlight bench SCENE... -o BENCH` with the options that results.md names, which makes the references,
 and `pathlight report BENCH`)
 """
 import json
+import lzma
+import math
 import shutil
 import sys
 from pathlib import Path
@@ -30,7 +32,7 @@ def head(results):
     return f"""# Results
 
 This page has error against time of every method on every shipped scene. Each run starts with nothing learned, and placing, precomputing and
-learning are charged. [make_results.py](make_results.py) makes the page of one bench.
+learning are charged. [make_results.py](make_results.py) makes the page of one bench, whose [raw results](results.json.xz) are beside it.
 
 * Machine: {machine}. {results['date']}, version {results['version']}, commit {commits}.
 * Command: `{results['command']}`
@@ -83,7 +85,12 @@ def gains(results):
     cells = {(c["scene"], c["backend"], c["method"]): verdict(c) for c in results["comparisons"]}
     for scene, backend in sorted({(s, b) for s, b, _ in cells}):
         rows.append(f"| `{scene}` | {backend} | " + " | ".join(cells.get((scene, backend, m), "") for m in others) + " |")
-    return "\n".join(rows) + "\n\n" + "\n".join(count_verdicts(cells, m) for m in others) + "\n\n"
+    nets = {m: [c["net"][0] for c in results["comparisons"] if c["method"] == m and c["net"][0]] for m in others}
+    return "\n".join(rows) + "\n\n" + "\n".join(count_verdicts(cells, m) + geometric_mean(nets[m]) for m in others) + "\n\n"
+
+
+def geometric_mean(factors):
+    return f" Geometric mean of {len(factors)}: {math.exp(sum(map(math.log, factors)) / len(factors)):.3g}." if factors else ""
 
 
 def count_verdicts(cells, method):
@@ -127,6 +134,7 @@ def main():
         sys.exit(f"{folder}: the bench is not complete; run it again, it goes on where it was")
     text = head(results) + gains(results) + ends(results) + plots(results, folder)
     (DOCS / "results.md").write_text(text)
+    (DOCS / "results.json.xz").write_bytes(lzma.compress((folder / "results.json").read_bytes(), preset=9))
 
 
 if __name__ == "__main__":
