@@ -6,8 +6,8 @@ and `pathlight report BENCH`)
 """
 import json
 import lzma
-import math
 import shutil
+import statistics
 import sys
 from pathlib import Path
 
@@ -86,11 +86,11 @@ def gains(results):
     for scene, backend in sorted({(s, b) for s, b, _ in cells}):
         rows.append(f"| `{scene}` | {backend} | " + " | ".join(cells.get((scene, backend, m), "") for m in others) + " |")
     nets = {m: [c["net"][0] for c in results["comparisons"] if c["method"] == m and c["net"][0]] for m in others}
-    return "\n".join(rows) + "\n\n" + "\n".join(count_verdicts(cells, m) + geometric_mean(nets[m]) for m in others) + "\n\n"
+    return "\n".join(rows) + "\n\n" + "\n".join(count_verdicts(cells, m) + mean_factor(nets[m]) for m in others) + "\n\n"
 
 
-def geometric_mean(factors):
-    return f" Geometric mean of {len(factors)}: {math.exp(sum(map(math.log, factors)) / len(factors)):.3g}." if factors else ""
+def mean_factor(factors):
+    return f" Geometric mean of {len(factors)}: {statistics.geometric_mean(factors):.3g}." if factors else ""
 
 
 def count_verdicts(cells, method):

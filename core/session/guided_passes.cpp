@@ -4,7 +4,6 @@
 
 #include "core/base/timer.h"
 #include "core/session/path_settings.h"
-#include "core/session/update_schedule.h"
 
 namespace pl {
 namespace {

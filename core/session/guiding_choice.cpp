@@ -7,13 +7,13 @@ namespace {
 
 /// Guidance by a table takes this part of a path's time on the shipped scenes; longer paths are extra.
 constexpr double kPrice = 0.6;
-/// Guiding pays from this part of its price on, because fields go on learning. With a table that is a ratio of 1.36: after a few passes
-/// guided paths have at most 1.2 times less variance on the scenes where guiding does not pay, and at least 1.4 times less on the others,
-/// whatever the seed (docs/notebook/2026-11-29-one-ratio.md).
+/// Guiding pays from this part of its price on, because fields go on learning. With a table that is a ratio of 1.36: after
+/// a warm-up guided paths have at most 1.33 times less variance on the shipped scenes where guiding does not pay, and at least 1.38 times
+/// less on the others; before the decision of the film 1.20 and 1.69 (256 x 256, docs/notebook/2026-11-29-one-ratio.md).
 constexpr double kLeastGain = 0.85;
 /// Guiding pays, whatever the variances, where guided paths bring light so many times as often as those of the baseline, whose variance is
-/// then that of the light it has found. It is 12 on labyrinth, 17 on staircase and 4.5 on Veach Ajar, and at most 1.9 in other rooms of the
-/// literature.
+/// then that of the light it has found. It is 12 on labyrinth, 17 on staircase and 4.5 on Veach Ajar, and at most 1.9 in five other rooms of
+/// the literature.
 constexpr double kRatioOfHiddenLight = 2.0;
 
 }  // namespace

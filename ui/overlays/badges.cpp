@@ -61,13 +61,15 @@ private:
 };
 
 /// Whether guiding pays in this picture, by the variance of single paths that both methods have traced: not by the error of the picture,
-/// which even numbers lower for the baseline, too.
+/// which even numbers lower for the baseline, too. Guiding that pays with a ratio below 1 has found hidden light, see GuidingChoice.
 void add_guiding_badge(BadgeRow& row, const GuidingStatus& guiding) {
     const std::string ratio = ratio_text(*guiding.variance_ratio);
     if (guiding.pays)
-        row.add(fmt::format("guiding pays: {}x less variance of a path", ratio), colors::kGood);
+        row.add(*guiding.variance_ratio < 1.0 ? "guiding pays: it finds light that Default misses"
+                                              : fmt::format("guiding pays: {}x less variance of a path", ratio),
+                colors::kGood);
     else
-        row.add(fmt::format("guiding given up: {}x less variance of a path, {} by Default", ratio,
+        row.add(fmt::format("guiding given up: only {}x less variance of a path, {} by Default", ratio,
                             passes_text(guiding.unguided_passes)),
                 colors::kWarning);
 }

@@ -1,7 +1,6 @@
 // The choice between guided passes and those of the baseline, from measurements made up here.
 #include "core/session/guiding_choice.h"
 
-#include <limits>
 #include <vector>
 
 #include "core/fields/field_model.h"
