@@ -173,7 +173,7 @@ inline constexpr auto kSurfaces = std::to_array<SurfaceInfo>({
      .color = &MaterialDescription::specular,
      // Lobes less wide than a few cells of a 16 x 16 table are sampled as well without it
      // (docs/notebook/2026-11-23-paths-and-lobes.md).
-     .least_guided_roughness = 0.35f,
+     .least_guided_roughness = 0.2f,
      .tables = [](float) { return lossless_albedo(); },
      .parameters = surface_parameter::kOfConductor,
      .text = "metal, reflects {specular}, {finish}{grain}"},
