@@ -172,7 +172,7 @@ inline constexpr auto kSurfaces = std::to_array<SurfaceInfo>({
     {.choice = {SurfaceKind::Conductor, "conductor", "Metal", "a mirror, or rough facets"},
      .color = &MaterialDescription::specular,
      // Within narrower lobes a cell of a 16 x 16 table tells nothing (docs/notebook/2026-11-29-rough-metals.md).
-     .least_guided_roughness = 0.2f,
+     .least_guided_roughness = 0.25f,
      .tables = [](float) { return lossless_albedo(); },
      .parameters = surface_parameter::kOfConductor,
      .text = "metal, reflects {specular}, {finish}{grain}"},
