@@ -74,6 +74,7 @@ std::string vertex_text(const diagnose::VertexRecord& vertex, const SceneDescrip
                                    print_vector(vertex.throughput));
     if (!vertex.is_escape) text += surface_text(vertex, scene);
     text += emission_text(vertex.emission);
+    if (vertex.target) text += fmt::format("  trains      the direction before by {}\n", print_float(*vertex.target));
     if (vertex.light) text += light_text(*vertex.light);
     if (vertex.roulette) text += roulette_text(*vertex.roulette);
     if (vertex.scattered) text += direction_text(*vertex.scattered);
@@ -130,6 +131,7 @@ Json vertex_json(const diagnose::VertexRecord& vertex, const SceneDescription& s
               {"light", vertex.light ? light_json(*vertex.light) : Json()},
               {"roulette", Json()},
               {"scattered", vertex.scattered ? direction_json(*vertex.scattered) : Json()},
+              {"target", vertex.target ? Json(*vertex.target) : Json()},
               {"contribution", vector_json(vertex.contribution())}};
     if (vertex.roulette)
         json["roulette"] = {{"estimate", vertex.roulette->estimate},

@@ -2,17 +2,20 @@
 // trains nothing.
 #pragma once
 
+#include <optional>
+
 #include "core/kernel/methods/guided.h"
 #include "core/kernel/methods/targets/expected_sarsa.h"
 
 namespace pl::diagnose {
 
-/// Choices since the last vertex.
+/// Choices and the training sample since the last vertex.
 struct ObservedChoices {
     bool samples_field = false;  ///< the last direction was sampled by the field
     DirectionSample direction{};
     float estimate = 1.0f;  ///< contribution estimate
     bool is_light_visible = false;
+    std::optional<float> target;  ///< of the training sample that the end of the last segment completes
 };
 
 /// A field that notes whether it was sampled.
@@ -58,7 +61,11 @@ struct Observed : M {
                                 typename M::Expectation& expectation) const {
         return choices->estimate = M::estimate_contribution(vertex, albedo, throughput, survival, expectation);
     }
-    void record(const typename M::Sample&) const {}
+    void record(const typename M::Sample& sample) const {
+        if constexpr (GuidedMethod<M>) {
+            if (sample.entry.is_trained()) choices->target = sample.target;
+        }
+    }
     void record_light(const typename M::Light&, bool is_visible) const { choices->is_light_visible = is_visible; }
 };
 

@@ -55,8 +55,10 @@ public:
             VertexRecord& vertex = record.vertices.emplace_back();
             const std::optional<PathEnd> end = add_vertex(state, point, vertex);
             choices_.is_light_visible = false;
+            choices_.target.reset();
             status = trace_segment<kAll>(context_, BvhIntersector{scene_}, state, counters);
             see_light(vertex);
+            vertex.target = choices_.target;
             if (status == PathStatus::Continues)
                 vertex.scattered = direction_from(point, state);
             else
@@ -230,6 +232,9 @@ PathRecord record_path(const PassReplay& passes, const AnyFieldView& field, std:
     };
     PathRecord record = with_replayed_method<ObservedGuided>(passes, field, sample, trace);
     record.is_guided = is_guided_path(passes, sample);
+    const bool trains = passes.run_of(pass).trains && passes.learning.target == LearningTarget::ExpectedSarsa;
+    for (VertexRecord& vertex : record.vertices)
+        if (!trains) vertex.target.reset();
     return record;
 }
 

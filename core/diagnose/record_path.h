@@ -94,6 +94,9 @@ struct VertexRecord {
     std::optional<LightSampleRecord> light{};  ///< none if no light was sampled, or none that can contribute
     std::optional<RouletteRecord> roulette{};  ///< none where the path ended before
     std::optional<ScatterRecord> scattered{};  ///< none at the last vertex
+    /// Target of the training sample that this vertex completes for the direction that led to it: rms() of radiance, see ExpectedSarsa. None
+    /// if the pass trains nothing, or by another target.
+    std::optional<float> target{};
 
     /// To the radiance of the pixel, from here alone.
     Vec3f contribution() const { return emission.contribution + (light ? light->contribution : Vec3f{0.0f}); }

@@ -11,7 +11,7 @@
 namespace pl {
 namespace {
 
-constexpr SealedKind kCheckpointKind{.magic = "PLCHECK\n", .version = 9, .title = "checkpoint", .word = "checkpoint"};
+constexpr SealedKind kCheckpointKind{.magic = "PLCHECK\n", .version = 10, .title = "checkpoint", .word = "checkpoint"};
 
 /// transfer(), also for the kinds of values that only checkpoints hold. Each works for writing, with constant values, and for
 /// reading.

@@ -133,7 +133,7 @@ std::uint32_t FilmRenderer::equal_passes(FilmSlot slot, std::uint32_t most) cons
     if (!learns && !chooses) return most;
     const std::uint64_t left = learns ? inputs_.settings.learn_passes - fields_.trained_passes(slot.method) : most;
     const auto is_equal = [&](std::uint32_t pass) {
-        if (chooses && GuidingChoice::is_due_before(pass)) return false;
+        if (chooses && film.guiding.is_due_before(pass)) return false;
         return !learns || (!fields_.is_update_due(slot.method, pass) &&
                            fields_.is_trained_by_pass(slot.method, pass) == film.trains);
     };

@@ -43,7 +43,7 @@ double GuidedPasses::least_ratio(FilmSlot slot) const {
 }
 
 bool GuidedPasses::is_choice_due(FilmSlot slot, const FilmProgress& film) const {
-    return !film.is_under_way() && chooses(slot) && GuidingChoice::is_due_before(film.passes);
+    return !film.is_under_way() && chooses(slot) && film.guiding.is_due_before(film.passes);
 }
 
 bool GuidedPasses::choose(FilmSlot slot, FilmProgress& film, const PassRequest& pass) {
@@ -93,10 +93,11 @@ bool GuidedPasses::run_trial(FilmProgress& film, Trial trial, const PassRequest&
     return is_complete;
 }
 
-/// Whether the paths of a trial train the field: guided ones, and in a warm-up those of the baseline, by the kernel of the method that
-/// learns. The latter meet light that the field does not know as often as light that it knows.
+/// Whether the paths of a trial train the field: guided ones, and those of the baseline in the first rounds of a warm-up, by the kernel of
+/// the method that learns, which doubles their time. They meet light that the field does not know as often as light that it knows.
 bool GuidedPasses::trains_by(const FilmProgress& film, MethodId method, Trial trial) const {
-    const bool is_training = trial == Trial::Guided || film.guiding.is_warming_up();
+    const bool is_first = film.guiding.is_warming_up() && !film.guiding.is_round_measured();
+    const bool is_training = trial == Trial::Guided || is_first;
     return is_training && info_of(method).learns && !fields_.is_frozen(method);
 }
 
@@ -119,7 +120,7 @@ PassRequest GuidedPasses::trial_request(const FilmProgress& film, Trial trial, P
     if (film.guiding.is_warming_up()) {
         request.sample = film.guiding.warm_up_round();
         request.passes = request.sample + 1;
-        const bool is_measured = GuidingChoice::is_measured(request.sample);
+        const bool is_measured = film.guiding.is_round_measured();
         if (is_measured && !is_guided) return request;
         request.path.stream = Stream::WarmUp;
         request.use = is_measured ? SampleUse::Measured : SampleUse::Film;

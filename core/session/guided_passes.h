@@ -27,7 +27,7 @@ public:
     bool is_choice_due(FilmSlot slot, const FilmProgress& film) const;
     /// Whether the variance of the pass under way is measured.
     bool measures(FilmSlot slot, const FilmProgress& film) const {
-        return chooses(slot) && GuidingChoice::is_measured(film.passes);
+        return chooses(slot) && film.guiding.is_measured(film.passes);
     }
     /// Decides about the passes that begin, up to the next choice. `pass`: the request for a whole one, by the method. Returns false if
     /// the trials before them were stopped: the next call resumes them.

@@ -7,10 +7,10 @@ namespace {
 
 /// Guidance by a table takes this part of a path's time on the shipped scenes; longer paths are extra.
 constexpr double kPrice = 0.6;
-/// Guiding pays from this part of its price on, because fields go on learning. With a table that is a ratio of 1.36: after
-/// a warm-up guided paths have at most 1.33 times less variance on the shipped scenes where guiding does not pay, and at least 1.38 times
+/// Guiding pays from this part of its price on, because fields go on learning. With a table that is a ratio of 1.28: after
+/// a warm-up guided paths have at most 1.24 times less variance on the shipped scenes where guiding does not pay, and at least 1.37 times
 /// less on the others; before the decision of the film 1.20 and 1.69 (256 x 256, docs/notebook/2026-11-29-one-ratio.md).
-constexpr double kLeastGain = 0.85;
+constexpr double kLeastGain = 0.8;
 /// Guiding pays, whatever the variances, where guided paths bring light so many times as often as those of the baseline, whose variance is
 /// then that of the light it has found. It is 12 on labyrinth, 17 on staircase and 4.5 on Veach Ajar, and at most 1.9 in five other rooms of
 /// the literature.
@@ -29,21 +29,23 @@ void PathNoise::add(const PassCounters& counters) {
 double GuidingChoice::least_ratio(double guidance) { return kLeastGain * (1.0 + kPrice * guidance); }
 
 Trial GuidingChoice::warm_up_trial() const {
-    const bool is_baseline = warm_up_trials_ < kFirstMeasured || (warm_up_trials_ - kFirstMeasured) % 2 == 0;
+    constexpr std::uint32_t kFirst = kDecision - kMeasured;
+    const bool is_baseline = warm_up_trials_ < kFirst || (warm_up_trials_ - kFirst) % 2 == 0;
     return is_baseline ? Trial::Baseline : Trial::Guided;
 }
 
 std::uint32_t GuidingChoice::warm_up_round() const {
-    return warm_up_trials_ < kFirstMeasured ? warm_up_trials_
-                                            : kFirstMeasured + (warm_up_trials_ - kFirstMeasured) / 2;
+    constexpr std::uint32_t kFirst = kDecision - kMeasured;
+    return warm_up_trials_ < kFirst ? warm_up_trials_ : kFirst + (warm_up_trials_ - kFirst) / 2;
 }
 
 void GuidingChoice::measure_warm_up(const PassCounters& counters, double least_ratio) {
-    if (is_measured(warm_up_round())) (warm_up_trial() == Trial::Guided ? guided_ : baseline_).add(counters);
+    if (is_round_measured()) (warm_up_trial() == Trial::Guided ? guided_ : baseline_).add(counters);
     ++warm_up_trials_;
     if (warm_up_round() < kDecision) return;
     found_hidden_light_ = finds_hidden_light();
     decide(least_ratio);
+    if (!pays()) decision_ = kLateDecision;
 }
 
 Trial GuidingChoice::trial_before(std::uint32_t pass) const {
@@ -58,7 +60,7 @@ void GuidingChoice::measure_trial(std::uint32_t pass, const PassCounters& counte
 
 void GuidingChoice::measure_pass(std::uint32_t pass, const PassCounters& counters, double least_ratio) {
     (pays() ? guided_ : baseline_).add(counters);
-    if (pass + 1 == kDecision) decide(least_ratio);
+    if (pass + 1 == decision_) decide(least_ratio);
 }
 
 bool GuidingChoice::finds_hidden_light() const {
@@ -78,7 +80,7 @@ GuidingChoice GuidingChoice::restarted() const {
     GuidingChoice choice;
     choice.belief_ = belief_;
     // A warm-up that another film interrupts has trained the field: it is not begun again.
-    if (warm_up_round() >= kFirstMeasured) choice.begin_guided();
+    if (is_round_measured()) choice.begin_guided();
     return choice;
 }
 

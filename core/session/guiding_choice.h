@@ -43,28 +43,32 @@ private:
 /// Paths of a part of the pixels, which never come to the picture: they measure a method, or train the field.
 enum class Trial : std::uint32_t { None, Baseline, Guided };
 
-/// A film decides before its first pass, if it warms up, and again before pass kDecision. A warm-up and the passes before kDecision have
-/// the same course: four samples of each measured pixel make the means, then both methods are measured four times.
+/// A film decides before its first pass, if it warms up, and once more before a later one. Both methods are measured in the last four
+/// passes before the decision; in a warm-up, whose rounds have the same course, four samples of each measured pixel make the means, then
+/// both methods are measured four times.
 class GuidingChoice {
 public:
-    /// The first of four passes, or rounds of a warm-up, that both methods are measured in, and the pass that they decide about.
-    static constexpr std::uint32_t kFirstMeasured = 4;
+    static constexpr std::uint32_t kMeasured = 4;  ///< passes, or rounds of a warm-up
+    /// The pass that is decided about; of a warm-up, its number of rounds.
     static constexpr std::uint32_t kDecision = 8;
+    /// Likewise in a film whose warm-up gave guiding up: trials of guided paths would take the time of passes that a short film lacks.
+    static constexpr std::uint32_t kLateDecision = 64;
 
-    static constexpr bool is_measured(std::uint32_t pass) { return pass >= kFirstMeasured && pass < kDecision; }
+    bool is_measured(std::uint32_t pass) const { return pass + kMeasured >= decision_ && pass < decision_; }
     /// Whether trials or a decision may be due before this pass.
-    static constexpr bool is_due_before(std::uint32_t pass) {
-        return pass == 0 || (pass >= kFirstMeasured && pass <= kDecision);
+    bool is_due_before(std::uint32_t pass) const {
+        return pass == 0 || (pass + kMeasured >= decision_ && pass <= decision_);
     }
     /// The least ratio of variances at which guiding pays. `guidance`: the time of guidance at a vertex, over that by a table.
     static double least_ratio(double guidance);
 
     /// Whether trials of a warm-up are due before the first pass: for a field that is unknown.
     bool is_warming_up() const { return !belief_; }
-    /// The next trial of the warm-up. The first rounds are of the baseline, whose paths must train a field that learns; each further one is
-    /// of the baseline and then of guided paths.
+    /// The next trial of the warm-up. The first rounds are of the baseline, whose paths must train a field that learns; each further one,
+    /// which is measured, is of the baseline and then of guided paths.
     Trial warm_up_trial() const;
     std::uint32_t warm_up_round() const;
+    bool is_round_measured() const { return warm_up_round() + kMeasured >= kDecision; }
     void measure_warm_up(const PassCounters& counters, double least_ratio);
     /// Whether guided paths of the warm-up brought light far more often than those of the baseline: rare bright paths are then most of
     /// the variance of the first guided passes.
@@ -90,6 +94,7 @@ public:
         PathNoise::each_value(choice.baseline_, fn);
         fn(choice.warm_up_trials_);
         fn(choice.last_trial_);
+        fn(choice.decision_);
         fn(choice.ratio_);
         fn(choice.belief_);
         fn(choice.found_hidden_light_);
@@ -106,7 +111,8 @@ private:
     PathNoise guided_;
     PathNoise baseline_;
     std::uint32_t warm_up_trials_ = 0;
-    std::uint32_t last_trial_ = 0;  ///< the pass after it; 0 before the first
+    std::uint32_t last_trial_ = 0;        ///< the pass after it; 0 before the first
+    std::uint32_t decision_ = kDecision;  ///< the pass that is decided about
     std::optional<double> ratio_;
     std::optional<bool> belief_;  ///< whether guiding pays
     bool found_hidden_light_ = false;

@@ -155,6 +155,28 @@ TEST_CASE(
     }
 }
 
+TEST_CASE("Record path: vertices show all training samples of their pass, and no others") {
+    for (const char* name : {"cornell", "spheres", "sky"}) {
+        const SceneDescription scene = shipped_scene(name);
+        for (const Estimator& estimator : kEstimators) {
+            INFO(name << ", " << estimator);
+            Session session = make_session(scene, small_settings(scene, estimator));
+            const FilmSlot slot = slot_of(session);
+            const auto records = [&] { return session.snapshot(slot).counters.path.method.records; };
+            render_passes(session, 2);
+            std::uint64_t shown = 0;
+            for (const PathRecord& path : record_pass(session)) {
+                CHECK_FALSE(path.vertices.front().target);
+                for (const VertexRecord& vertex : path.vertices) shown += vertex.target ? 1 : 0;
+            }
+            const std::uint64_t before = records();
+            render_passes(session, 1);
+            CHECK(shown == records() - before);
+            CHECK((shown > 0) == info_of(estimator.method).learns);
+        }
+    }
+}
+
 TEST_CASE("Record path: whether a pass is guided is known before it, and asking changes no later choice") {
     const SceneDescription scene = shipped_scene("cornell");
     const RenderSettings settings = settings_without_gain(scene, MethodId::Reinforcement);

@@ -30,9 +30,9 @@ inline Session used_session(const SceneDescription& scene, const RenderSettings&
 }
 
 /// Settings by which guided paths are those of the baseline, at a higher cost, so that guiding is given up: all directions by
-/// the BSDF, roulette by the albedo.
+/// the BSDF, roulette by the albedo. Smaller pictures have too few paths to see that their variance is the same.
 inline RenderSettings settings_without_gain(const SceneDescription& scene, MethodId method) {
-    RenderSettings settings = small_settings(scene, {method, true}, 40, 40);
+    RenderSettings settings = small_settings(scene, {method, true}, 80, 80);
     settings.guiding = GuidingRule::Paying;
     settings.mixture = {.learned = 0, .bsdf_fraction = 1.0f};
     settings.roulette = RouletteRule::Albedo;
