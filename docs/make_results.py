@@ -4,7 +4,8 @@ compressed.
 
 Usage: make_results.py BENCH   (after `pathlight bench SCENE... -o BENCH` with the options that results.md names, which makes the references,
 and `pathlight report BENCH`)
-       make_results.py --check   exit code 1 if the page or the plot of the front page is not what the committed raw results give
+       make_results.py           page and plot of the front page of the committed raw results
+       make_results.py --check   exit code 1 if these two are not what the raw results give
 """
 import json
 import lzma
@@ -165,25 +166,29 @@ def page(results):
     return head(results) + gains(results) + ends(results) + plots(results)
 
 
-def check():
-    results = json.loads(lzma.decompress(RAW.read_bytes()))
-    stale = [path.name for path, text in ((DOCS / "results.md", page(results)), (GAINS, gains_plot(results))) if path.read_text() != text]
-    sys.exit(f"not what the raw results give: {', '.join(stale)}" if stale else 0)
-
-
-def main():
-    if len(sys.argv) != 2:
-        sys.exit(__doc__)
-    if sys.argv[1] == "--check":
-        check()
-    folder = Path(sys.argv[1])
-    results = json.loads((folder / "results.json").read_text())
+def take_bench(folder):
+    """Copies raw results and plots of a bench."""
+    raw = (folder / "results.json").read_bytes()
+    results = json.loads(raw)
     if not results["complete"]:
         sys.exit(f"{folder}: the bench is not complete; run it again, it goes on where it was")
     copy_plots(results, folder)
-    (DOCS / "results.md").write_text(page(results))
-    GAINS.write_text(gains_plot(results))
-    RAW.write_bytes(lzma.compress((folder / "results.json").read_bytes(), preset=9))
+    RAW.write_bytes(lzma.compress(raw, preset=9))
+
+
+def main():
+    if len(sys.argv) > 2:
+        sys.exit(__doc__)
+    wanted = sys.argv[1] if len(sys.argv) == 2 else ""
+    if wanted not in ("", "--check"):
+        take_bench(Path(wanted))
+    results = json.loads(lzma.decompress(RAW.read_bytes()))
+    written = {DOCS / "results.md": page(results), GAINS: gains_plot(results)}
+    if wanted == "--check":
+        stale = [path.name for path, text in written.items() if path.read_text() != text]
+        sys.exit(f"not what the raw results give: {', '.join(stale)}" if stale else 0)
+    for path, text in written.items():
+        path.write_text(text)
 
 
 if __name__ == "__main__":
