@@ -171,9 +171,8 @@ inline constexpr auto kSurfaces = std::to_array<SurfaceInfo>({
      .text = "reflects {albedo}"},
     {.choice = {SurfaceKind::Conductor, "conductor", "Metal", "a mirror, or rough facets"},
      .color = &MaterialDescription::specular,
-     // Lobes less wide than a few cells of a 16 x 16 table are sampled as well without it
-     // (docs/notebook/2026-11-23-paths-and-lobes.md).
-     .least_guided_roughness = 0.35f,
+     // Within narrower lobes a cell of a 16 x 16 table tells nothing (docs/notebook/2026-11-29-rough-metals.md).
+     .least_guided_roughness = 0.2f,
      .tables = [](float) { return lossless_albedo(); },
      .parameters = surface_parameter::kOfConductor,
      .text = "metal, reflects {specular}, {finish}{grain}"},
