@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 """Makes the pictures of the documents with the program, as PNGs of 256 colors.
 
-Usage: make_pictures.py PROGRAM [NAME...]   NAME is window, tour, error-map, door, effects or learning; default: all
+Usage: make_pictures.py PROGRAM [NAME...]   NAME is window, tour, error-map, door, effects, cells or learning; default: all
 
 For the first three the viewer plays pictures/NAME.script on SDL's dummy driver, so no display is needed; every `shot` of a script becomes
-a picture. The others are renderings, side by side where they are several; `learning` is animated, and wants a quiet machine: each of its
-frames is `default` and `reinforcement` after the same time.
+a picture. `door` and `effects` are renderings, side by side where they are several. `cells` is what a volume has learned after more and
+more passes, at its right the truth. `learning` is animated, and wants a quiet machine: each of its frames is `default` and
+`reinforcement` after the same time.
 """
 import os
 import re
@@ -32,6 +33,10 @@ RENDERINGS = {
 # Of the animation: scene and options of both halves, and the seconds of each frame.
 LEARNING = ["door", "--nee", "off", "--size", "240x240", "--threads", "1"]
 SECONDS = [0.1, 0.2, 0.4, 0.8, 1.6, 3.2]
+# Of the cells: options, passes, and where `inspect --truth` draws the learned and the true disc: x, y, width, height.
+CELLS = ["cornell", "--nee", "off", "--at", "400,0,200", "--size", "256x256", "--truth"]
+PASSES = [1, 4, 16, 64]
+LEARNED, TRUE = (20, 264, 388, 396), (448, 264, 388, 396)
 COLORS = 256
 
 
@@ -108,10 +113,18 @@ def side_by_side(pictures):
     return width, height, [pixel for row in rows for pixel in row]
 
 
+def halved(picture, box):
+    """A part of a picture at half its size: each pixel is the mean of 2 x 2."""
+    (width, _, pixels), (left, top, wide, high) = picture, box
+    blocks = ([pixels[y * width + x + i] for i in (0, 1, width, width + 1)]
+              for y in range(top, top + high, 2) for x in range(left, left + wide, 2))
+    return wide // 2, high // 2, [tuple(sum(channel) // 4 for channel in zip(*block)) for block in blocks]
+
+
 def shrink(frames, target):
-    """Writes PNGs as one of a palette: colors that differ in the last bit only count as equal. Each frame is a list of files side by side;
-    several are an animation that lasts a second for each. [PNG specification, third edition, section 11.3.6]"""
-    pictures = [side_by_side([read_png(source) for source in sources]) for sources in frames]
+    """Writes pictures as one PNG of a palette: colors that differ in the last bit only count as equal. Each frame is a list of pictures
+    side by side; several are an animation that lasts a second for each. [PNG specification, third edition, section 11.3.6]"""
+    pictures = [side_by_side(frame) for frame in frames]
     width, height = pictures[0][:2]
     pictures = [[(r & 254, g & 254, b & 254) for r, g, b in pixels] for _, _, pixels in pictures]
     colors, index = palette_of(sum(map(Counter, pictures), Counter()))
@@ -139,7 +152,17 @@ def render(program, name):
         files = [Path(work) / f"{scene}.png" for scene in scenes]
         for scene, file in zip(scenes, files):
             subprocess.run([program, "render", scene, "-o", file, *options, "--backend", "cpu", "--quiet"], check=True)
-        shrink([files], DOCS / "images" / f"{name}.png")
+        shrink([[read_png(file) for file in files]], DOCS / "images" / f"{name}.png")
+
+
+def inspect(program, name):
+    with tempfile.TemporaryDirectory() as work:
+        file, strip = Path(work) / "disc.png", []
+        for passes in PASSES:
+            subprocess.run([program, "inspect", *CELLS, "--method", "reinforcement", "--spp", str(passes), "-o", file, "--backend", "cpu",
+                            "--quiet"], check=True)
+            strip.append(halved(read_png(file), LEARNED))
+        shrink([[*strip, halved(read_png(file), TRUE)]], DOCS / "images" / f"{name}.png")
 
 
 def animate(program, name):
@@ -150,7 +173,7 @@ def animate(program, name):
             for method, file in zip(("default", "reinforcement"), frames[-1]):
                 subprocess.run([program, "render", *LEARNING, "--method", method, "--time-limit", str(seconds), "-o", file,
                                 "--backend", "cpu", "--quiet"], check=True)
-        shrink(frames, DOCS / "images" / f"{name}.png")
+        shrink([[read_png(file) for file in frame] for frame in frames], DOCS / "images" / f"{name}.png")
 
 
 def play(program, name):
@@ -161,16 +184,16 @@ def play(program, name):
         subprocess.run([program, "view", *arguments, "--backend", "cpu", "--script", str(script)], check=True, cwd=work,
                        env=os.environ | {"SDL_VIDEODRIVER": "dummy"})
         for shot in re.findall(r"^\d+ shot (\S+)$", script.read_text(), re.MULTILINE):
-            shrink([[Path(work) / shot]], folder / shot)
+            shrink([[read_png(Path(work) / shot)]], folder / shot)
 
 
 def main():
-    names = [*PICTURES, *RENDERINGS, "learning"]
+    names = [*PICTURES, *RENDERINGS, "cells", "learning"]
     if len(sys.argv) < 2 or set(sys.argv[2:]) - set(names):
         sys.exit(__doc__)
     program = str(Path(sys.argv[1]).resolve())
     for name in sys.argv[2:] or names:
-        (play if name in PICTURES else render if name in RENDERINGS else animate)(program, name)
+        (play if name in PICTURES else render if name in RENDERINGS else inspect if name == "cells" else animate)(program, name)
 
 
 if __name__ == "__main__":

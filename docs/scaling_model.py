@@ -270,10 +270,15 @@ def main():
     parser.add_argument("--threads", type=int, default=16, help="of each rank")
     parser.add_argument("--gigabits", type=float, help="bandwidth of a rank, per second")
     parser.add_argument("--microseconds", type=float, help="latency of a message")
+    parser.add_argument("--mpaths", type=float, help="millions of paths per second of a faster or slower thread")
     parser.add_argument("--ranks", default="1,2,4,8,16,128,1024")
     options = parser.parse_args()
     with open(options.stats, encoding="utf-8") as file:
-        run = Run(json.load(file), options.size, options.spp)
+        stats = json.load(file)
+    if options.mpaths:
+        slower = stats["paths"] / stats["seconds"]["render"] / 1e6 / options.mpaths
+        stats["seconds"] = {clock: seconds * slower for clock, seconds in stats["seconds"].items()}
+    run = Run(stats, options.size, options.spp)
     networks = [(10.0, 20.0), (100.0, 3.0)]
     if options.gigabits:
         networks = [(options.gigabits, options.microseconds or 20.0)]

@@ -17,13 +17,17 @@ TIERS = ["push", "merge", "nightly"]
 
 HEAD = """# Hard cases
 
-`tests/hard/hard_cases.py --write BUILD` makes this page of [tests/hard/catalogue.txt](../tests/hard/catalogue.txt); a test fails if a case is missing.
-*Used* is the largest share of a tolerance that the tests of a case used: the share of the limit of a bound, or the share of the way to a false
-alarm of a rule that compares means, densities or pictures (one in a million; above 100 % the test fails). *exact* means no tolerance: bits,
-counts, words. *Seconds* is the time of one run of all tests of a case on a busy machine; the field is empty if no run was kept.
-The rules S1 to S3 are in [tests/support/statistics/rules.h](../tests/support/statistics/rules.h): they fail unless they could have found a difference.
-`./run test` runs the tier push, after which `tests/hard/hard_cases.py --write build/release` updates the numbers; `./run test merge` and
-`./run test nightly` also run the larger tiers.
+`tests/hard/hard_cases.py --write BUILD` makes this page from [tests/hard/catalogue.txt](../tests/hard/catalogue.txt); a test fails if a case is
+missing.
+
+* *Used* is the largest share of a tolerance that the tests of a case used. For a bound, this is the share of the limit. For a rule that
+  compares means, densities or pictures, 100 % is a false alarm of one in a million, above which the test fails.
+* *exact* means no tolerance: bits, counts, words.
+* *Seconds* is the time of one run of all tests of a case on a busy machine; the field is empty if no run was kept.
+
+The rules S1 to S3 ([rules.h](../tests/support/statistics/rules.h)) check their own power: a test that could not have detected the difference
+fails. `./run test` runs the tier push, after which `tests/hard/hard_cases.py --write build/release` updates the numbers; `./run test merge`
+and `./run test nightly` also run the larger tiers.
 """
 
 
