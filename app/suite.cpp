@@ -102,18 +102,21 @@ std::vector<fs::path> scene_files(const std::string& folder) {
 std::vector<std::string> scenes_of(const Suite& suite, const Options& options, Console& console) {
     const std::vector<fs::path> files = scene_files(options.scenes_folder);
     std::vector<std::string> scenes;
+    std::vector<std::string_view> missing;
     for (const std::string_view scene : suite.scenes.first(options.quick ? kQuickScenes : suite.scenes.size())) {
         const auto found = std::ranges::find_if(
             files, [&](const fs::path& file) { return file.generic_string().ends_with(fmt::format("/{}", scene)); });
-        if (found != files.end())
-            scenes.push_back(found->string());
+        if (found == files.end())
+            missing.push_back(scene);
         else
-            console.log().warning(fmt::format("{}: expected {} in it, there is none: the suite '{}' is without it",
-                                              options.scenes_folder, scene, suite.name));
+            scenes.push_back(found->string());
     }
     if (scenes.empty())
         throw Error(ErrorKind::Input, fmt::format("{}: expected scenes of the suite '{}' in it, there are none: {}",
-                                                  options.scenes_folder, suite.name, fmt::join(suite.scenes, ", ")));
+                                                  options.scenes_folder, suite.name, fmt::join(missing, ", ")));
+    if (!missing.empty())
+        console.log().warning(fmt::format("{}: the suite '{}' is without {}, which are not in it",
+                                          options.scenes_folder, suite.name, fmt::join(missing, ", ")));
     return scenes;
 }
 

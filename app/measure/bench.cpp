@@ -73,10 +73,11 @@ int run_methods(const CommandLine& line, const CommandLine& typed, Console& cons
         share = state.share;
         progress->show(state);
     };
-    bench::BenchObserver observer{.stop = interrupt.flag(),
-                                  .tell = [&](const std::string& work) { console.remark("to do: " + work + "\n"); },
-                                  .show = show,
-                                  .on_run = [&](const bench::BenchRun& run) { tell_run(run, console); }};
+    bench::BenchObserver observer{
+        .stop = interrupt.flag(),
+        .tell = [&](const std::string& work) { console.log().notice("left to do: " + work); },
+        .show = show,
+        .on_run = [&](const bench::BenchRun& run) { tell_run(run, console); }};
     if (Communicator* const ranks = shared_ranks())
         observer.deal = [&, ranks](const bench::BenchPlan& plan, const std::vector<bench::PlannedRun>& runs,
                                    const bench::OnFinishedRun& on_finished) {

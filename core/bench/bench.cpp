@@ -19,12 +19,14 @@ double share_done(const Session& session, FilmSlot slot, const RunLimits& limits
     return std::min(share, 1.0);
 }
 
-/// Of a run that time or samples end, by the speed of `default` in the reference; samples of methods that learn take longer.
+/// Of a run, by its limits of time and, where a reference tells the speed of `default`, of samples: those of methods that learn take
+/// longer. Empty if neither is known.
 std::optional<double> expected_seconds(const BenchScene& scene) {
-    if (scene.limits.seconds) return scene.limits.seconds;
-    if (!scene.reference || scene.limits.target_error) return std::nullopt;
+    std::optional<double> seconds = scene.limits.seconds;
+    if (scene.limits.target_error || !scene.reference) return seconds;
     const auto& [first, second] = scene.reference->halves;
-    return scene.limits.spp * (first.seconds + second.seconds) / (first.spp + second.spp);
+    const double of_samples = scene.limits.spp * (first.seconds + second.seconds) / (first.spp + second.spp);
+    return std::min(seconds.value_or(of_samples), of_samples);
 }
 
 }  // namespace
@@ -52,7 +54,7 @@ BenchResults Bench::run() {
     return results;
 }
 
-/// "2 references of 2 x 4096 samples per pixel, then 54 runs, warm-ups included, one after the other about 1:48 min".
+/// "references: 2 of 2 x 4096 samples per pixel; runs: 54, warm-ups included, one after the other about 1:48 min".
 std::string Bench::forecast() const {
     const auto& scenes = settings_.plan.scenes;
     const auto missing = std::ranges::count_if(scenes, [](const BenchScene& scene) { return !scene.reference; });
@@ -61,8 +63,8 @@ std::string Bench::forecast() const {
     for (const PlannedRun& run : runs) seconds += expected_seconds(scenes[run.scene]).value_or(NAN);
     std::string text;
     if (missing > 0)
-        text = fmt::format("{} references of 2 x {} samples per pixel, then ", missing, settings_.reference_spp);
-    text += fmt::format("{} runs, warm-ups included", runs.size());
+        text = fmt::format("references: {} of 2 x {} samples per pixel; ", missing, settings_.reference_spp);
+    text += fmt::format("runs: {}, warm-ups included", runs.size());
     return text + (std::isfinite(seconds) ? ", one after the other about " + duration_text(seconds)
                                           : ", whose time is not known before");
 }

@@ -69,7 +69,7 @@ public:
 
     /// Of one picture both halves are the same: the reference's own noise then counts as error.
     Reference reference(const std::string& scene) const {
-        const std::string pointer = "/references/" + pointer_step(scene);
+        const std::string pointer = "/references" + pointer_step(scene);
         const auto files = file_.texts(pointer);
         if (!files || files->empty() || files->size() > 2)
             file_.fail(pointer, fmt::format("expected the reference of '{}', a list of one or two files", scene));
