@@ -55,7 +55,7 @@ TEST_CASE("a suite has the scenes that its folder has, by the names of their fol
     CHECK((names == std::vector<std::string>{"veach-ajar", "staircase"}));
     // The command is the one that was typed: a suite is spelled out by whoever runs it.
     CHECK_THAT(results.at("command").get<std::string>(),
-               contains("bench --suite literature --scenes ") && !contains("scene.xml"));
+               contains(" --suite literature --scenes ") && !contains("scene.xml"));
 }
 
 TEST_CASE("a protocol sets what it names, a quick bench is short, and given options go over both") {
