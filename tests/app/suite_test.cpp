@@ -111,7 +111,6 @@ TEST_CASE("a quick bench of a suite has three scenes, five seeds, all methods an
     CHECK(results.at("summary").size() == 3 * 3);
     for (const json& cell : results.at("summary")) {
         CHECK(cell.at("runs") == 5);
-        CHECK(cell.at("seconds").at(0).get<double>() < 4.0);
         CHECK(cell.at("relmse").at(1).is_number());  // an interval
         CHECK(cell.at("flip").at(0).get<double>() < 1.0);
     }
