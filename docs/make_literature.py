@@ -120,6 +120,13 @@ def cost(comparison):
     return "unknown" if not comparison["cost"][0] else f"each {1.0 / comparison['cost'][0]:.2g} times"
 
 
+def decided(values, least):
+    """Whether an interval lies above what is wanted."""
+    if values[1] is None or values[2] is None or values[1] < least <= values[2]:
+        return "not decided"
+    return "reached" if values[1] >= least else "missed"
+
+
 def goals(benches):
     rows = ["## Goals\n", "| scene | light samples | wanted | because of | best here | |", "| --- | --- | --- | --- | --- | --- |"]
     for scene, light, figure, least, why in GOALS:
@@ -128,11 +135,11 @@ def goals(benches):
             rows.append(f"| {TITLES[scene]} | {light} | {least} | {why} | not measured | open |")
             continue
         best = max(found, key=lambda c: c[figure][0])
-        word = "reached" if best[figure][0] >= least else "missed"
+        word = decided(best[figure], least)
         what = "fewer samples" if figure == "samples" else "less time"
         rows.append(f"| {TITLES[scene]} | {light} | {least} times {what} | {why} | {interval(best[figure])} by `{best['method']}` | {word} |")
     for worst in sorted((c for _, s, c in all_comparisons(benches) if c["net"][0] and light_samples(s) == "on"), key=lambda c: c["net"][0])[:1]:
-        word = "reached" if worst["net"][0] >= LEAST else "missed"
+        word = decided(worst["net"], LEAST)
         rows.append(f"| every scene | on | {LEAST} times less time | guiding should not lose | {interval(worst['net'])} on "
                     f"{TITLES.get(worst['scene'], worst['scene'])} by `{worst['method']}` | {word} |")
     return "\n".join(rows) + "\n\n"
