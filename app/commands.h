@@ -18,6 +18,7 @@ int run_trace(const CommandLine& line, Console& console);
 int run_compare(const CommandLine& line, Console& console);
 int run_bench(const CommandLine& line, Console& console);
 int run_report(const CommandLine& line, Console& console);
+int run_score(const CommandLine& line, Console& console);
 int run_reference(const CommandLine& line, Console& console);
 int run_selftest(const CommandLine& line, Console& console);
 

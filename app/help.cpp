@@ -86,13 +86,13 @@ constexpr std::array kCommands{
                 {"pathlight reference cornell -o references",
                  "pathlight reference door --spp 1024 --size 256x256 -o references",
                  "pathlight reference door --time-limit 60 -o references"}},
-    CommandInfo{Command::Bench, "bench", "SCENE... -o DIR",
+    CommandInfo{Command::Bench, "bench", "(SCENE... | --suite NAME --scenes DIR) -o DIR",
                 "Measures accuracy against time: methods x back ends x scenes x seeds.\n"
                 "Each run starts with an empty field. Time is placing, precomputing, learning and rendering; loading,\n"
                 "building, uploading and measuring are not in it. The same command continues an interrupted bench.\n"
                 "'report' makes a page of the folder.",
                 {"pathlight bench cornell door --time-limit 2 -o results",
-                 "pathlight bench door --method default,reinforcement --seeds 5 --spp 64 -o results",
+                 "pathlight bench --suite literature --scenes scenes --protocol npm --quick -o quick",
                  "pathlight bench cornell --effects --seeds 3 --size 256x256 --spp 16 -o kernels"},
                 Inputs::Scenes},
     CommandInfo{Command::Report, "report", "DIR",
@@ -101,6 +101,16 @@ constexpr std::array kCommands{
                 {"pathlight report results",
                  "pathlight report results --json",
                  "pathlight report results --quiet"},
+                Inputs::Folder},
+    CommandInfo{Command::Score, "score", "DIR",
+                "Puts pictures of any renderer, with their times, into the tables of a bench.\n"
+                "DIR/score.json names them, and the references: {\"schema\": \"pathlight.score/1\", \"references\":\n"
+                "{\"room\": [\"half-1.exr\", \"half-2.exr\"]}, \"pictures\": [{\"file\": \"a.exr\", \"scene\": \"room\", \"method\":\n"
+                "\"path\", \"seed\": 1, \"samples\": 64, \"seconds\": 12.5}, ...]}. The first method of \"methods\", or else\n"
+                "of the first picture, is the baseline of the others. 'report' makes a page of the folder.",
+                {"pathlight score pictures",
+                 "pathlight score pictures --json",
+                 "pathlight score pictures --quiet"},
                 Inputs::Folder},
     CommandInfo{Command::SelfTest, "selftest", "",
                 "Renders scenes whose radiance has a closed form, on every back end that is available.\n"

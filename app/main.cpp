@@ -40,6 +40,7 @@ int run(const std::vector<std::string>& arguments, Console& console) {
     case Command::Compare: return run_compare(line, console);
     case Command::Bench: return run_bench(line, console);
     case Command::Report: return run_report(line, console);
+    case Command::Score: return run_score(line, console);
     case Command::Reference: return run_reference(line, console);
     case Command::SelfTest: return run_selftest(line, console);
     }

@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <glm/glm.hpp>
@@ -31,6 +32,7 @@ enum class Command : std::uint32_t {
     Reference,
     Bench,
     Report,
+    Score,
     SelfTest
 };
 
@@ -65,6 +67,9 @@ struct PixelWindow {
     int height = 0;
 };
 
+/// No suite, no protocol.
+inline constexpr std::string_view kNoPreset = "none";
+
 struct Options {
     std::string scene;                ///< name or path; empty if none was given
     std::vector<std::string> inputs;  ///< positional arguments of subcommands that do not take one scene
@@ -94,6 +99,10 @@ struct Options {
     std::string reference_folder;        ///< bench: empty: its own
     std::string gate;                    ///< bench: earlier results to compare the new ones with
     double tolerance_percent = 10.0;     ///< bench: slowdown against the gate's results that passes
+    std::string suite{kNoPreset};        ///< bench: of scenes
+    std::string scenes_folder;           ///< bench: that of the suite
+    std::string protocol{kNoPreset};     ///< bench: preset of options
+    bool quick = false;                  ///< bench: preset of a short bench
     bool effects = false;                ///< bench: compare kernels instead of methods
     double measure_percent = 1.0;        ///< bench: time for measuring, relative to the charged time
 

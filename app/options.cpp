@@ -168,7 +168,7 @@ void require_complete(Command command, const Options& options) {
     const bool needs_file = command == Command::Render || command == Command::Inspect || command == Command::Convert;
     const bool needs_folder =
         command == Command::Replay || command == Command::Reference || command == Command::Bench;
-    if (options.scene.empty() && options.inputs.empty() &&
+    if (options.scene.empty() && options.inputs.empty() && options.suite == kNoPreset &&
         (needs_file || needs_folder || command == Command::Info || command == Command::Trace))
         fail(fmt::format(
             "'{}' needs a SCENE: a name ({}), an .obj, .gltf, .glb or Mitsuba .xml file, or a scene .json file",
@@ -190,8 +190,12 @@ void require_complete(Command command, const Options& options) {
              "picture, --diagnostics FILE or --gain FILE");
     if (command == Command::Trace && options.why && !options.output.empty())
         fail("'trace --why' prints figures and draws no lines: -o FILE goes with --sample N[-M]");
+    if (options.suite != kNoPreset && !options.inputs.empty())
+        fail(fmt::format("--suite: expected no SCENE with it, got {}", options.inputs.front()));
     if (command == Command::Report && options.inputs.size() != 1)
         fail(fmt::format("'report' needs one folder of 'bench', DIR: got {}", options.inputs.size()));
+    if (command == Command::Score && options.inputs.size() != 1)
+        fail(fmt::format("'score' needs one folder with score.json, DIR: got {}", options.inputs.size()));
     if (command == Command::Compare && options.inputs.size() != 2)
         fail(fmt::format("'compare' needs two pictures, IMAGE REFERENCE: got {}", options.inputs.size()));
 }

@@ -11,6 +11,7 @@
 #include "app/measure/bench_options.h"
 #include "app/measure/bench_ranks.h"
 #include "app/progress.h"
+#include "app/suite.h"
 #include "app/version.h"
 #include "core/bench/bench_results.h"
 #include "core/bench/effect_costs.h"
@@ -18,13 +19,14 @@
 namespace pl {
 namespace {
 
-bench::BenchSettings bench_settings(const CommandLine& line, Console& console) {
+/// `typed`: `line` without what its suite and protocol bring.
+bench::BenchSettings bench_settings(const CommandLine& line, const CommandLine& typed, Console& console) {
     const Options& options = line.options;
     return {.plan = make_bench_plan(line, console),
             .folder = options.output,
             .reference_folder = options.reference_folder,
             .reference_spp = options.reference_spp,
-            .command = repeating_command(line),
+            .command = repeating_command(typed),
             .commit = std::string(commit_id())};
 }
 
@@ -39,16 +41,6 @@ void tell_run(const bench::BenchRun& run, Console& console) {
                           {"error", run.end().metrics.relmse}});
 }
 
-void tell_summary(const bench::BenchSummary& summary, Console& console) {
-    for (const bench::CellSummary& cell : summary.cells)
-        console.result(fmt::format("{:<40} relMSE {}, {} s, {} runs\n", cell.cell.title(),
-                                   bench::interval_text(cell.final_error, cell.ends.size()),
-                                   bench::interval_text(cell.seconds, cell.ends.size()), cell.ends.size()));
-    for (const bench::Comparison& comparison : summary.comparisons)
-        console.result(
-            fmt::format("{} {}\n", comparison.cell.title(), headline(comparison.gain, comparison.base_method)));
-}
-
 /// `earlier` are the results of --gate. Returns the exit code.
 int report(const bench::BenchResults& results, const std::optional<bench::BenchResults>& earlier,
            const Options& options, Console& console) {
@@ -59,7 +51,7 @@ int report(const bench::BenchResults& results, const std::optional<bench::BenchR
             fmt::format("interrupted: {} runs are kept, the same command continues from there", results.runs.size()));
         return kExitInterrupted;
     }
-    tell_summary(results.summary, console);
+    console.result(bench::summary_text(results.summary));
     console.remark(fmt::format("{}: results.json, series.csv, summary.csv, summary.md\n", options.output));
     if (options.seeds < static_cast<int>(kGoodRuns))
         console.log().notice(
@@ -70,7 +62,7 @@ int report(const bench::BenchResults& results, const std::optional<bench::BenchR
     return 0;
 }
 
-int run_methods(const CommandLine& line, Console& console) {
+int run_methods(const CommandLine& line, const CommandLine& typed, Console& console) {
     const Options& options = line.options;
     const InterruptGuard interrupt;
     std::optional<ProgressDisplay> progress;
@@ -81,15 +73,17 @@ int run_methods(const CommandLine& line, Console& console) {
         share = state.share;
         progress->show(state);
     };
-    bench::BenchObserver observer{.stop = interrupt.flag(), .show = show, .on_run = [&](const bench::BenchRun& run) {
-                                      tell_run(run, console);
-                                  }};
+    bench::BenchObserver observer{
+        .stop = interrupt.flag(),
+        .tell = [&](const std::string& work) { console.log().notice("left to do: " + work); },
+        .show = show,
+        .on_run = [&](const bench::BenchRun& run) { tell_run(run, console); }};
     if (Communicator* const ranks = shared_ranks())
         observer.deal = [&, ranks](const bench::BenchPlan& plan, const std::vector<bench::PlannedRun>& runs,
                                    const bench::OnFinishedRun& on_finished) {
             return deal_runs(*ranks, plan, runs, interrupt.flag(), on_finished);
         };
-    bench::Bench bench(bench_settings(line, console), std::move(observer));
+    bench::Bench bench(bench_settings(line, typed, console), std::move(observer));
     std::optional<bench::BenchResults> earlier;
     if (!options.gate.empty()) earlier = bench::read_results(options.gate);
     const bench::BenchResults results = bench.run();
@@ -122,7 +116,8 @@ int run_effects(const CommandLine& line, Console& console) {
 }  // namespace
 
 int run_bench(const CommandLine& line, Console& console) {
-    return line.options.effects ? run_effects(line, console) : run_methods(line, console);
+    const CommandLine whole = expanded(line, console);
+    return line.options.effects ? run_effects(whole, console) : run_methods(whole, line, console);
 }
 
 }  // namespace pl

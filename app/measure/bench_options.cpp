@@ -23,12 +23,19 @@ Json options_json(const Options& options) {
     return json;
 }
 
+/// The name of a scene's file; of a file named "scene", as those of Mitsuba are, the name of its folder.
+std::string scene_name(const std::filesystem::path& file) {
+    const std::string stem = file.stem().string();
+    const std::string folder = std::filesystem::absolute(file).parent_path().filename().string();
+    return stem == "scene" && !folder.empty() ? folder : stem;
+}
+
 bench::BenchScene open_bench_scene(const CommandLine& given, const std::string& input, Console& console) {
     CommandLine line = given;
     line.options.scene = input;
     const LoadedScene loaded = open_scene(input, given.options.load, console);
     const Options options = resolve_options(line, *loaded.scene);
-    return {.name = loaded.scene->source.stem().string(),
+    return {.name = scene_name(loaded.scene->source),
             .source = options.scene,
             .description = loaded.scene,
             .load_seconds = loaded.load_seconds,

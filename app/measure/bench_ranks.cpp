@@ -10,6 +10,7 @@
 
 #include "app/commands.h"
 #include "app/measure/bench_options.h"
+#include "app/suite.h"
 #include "core/base/error.h"
 #include "mpi/mpi_backend.h"
 #include "mpi/rank_work.h"
@@ -263,7 +264,7 @@ void serve_bench(Communicator& ranks, const std::vector<std::string>& arguments)
         quiet.quiet = true;
         Console silent;
         silent.configure(quiet);
-        plan = make_bench_plan(parse_command_line(arguments), silent);
+        plan = make_bench_plan(expanded(parse_command_line(arguments), silent), silent);
     } catch (const Error& error) {
         failure = error;
     }

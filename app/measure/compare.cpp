@@ -101,9 +101,7 @@ MeasuredError compare(const Picture& picture, const std::string& reference, std:
                       Console& console) {
     if (std::filesystem::is_directory(reference)) {
         const bench::Reference found = reference_for(picture, reference);
-        const auto& [first, second] = found.halves;
-        const std::vector<Vec3f> mean = weighted_mean(first.image.pixels, first.spp, second.image.pixels, second.spp);
-        return compare(picture, found.pixels(), mean, resolution);
+        return compare(picture, found.pixels(), found.mean().pixels, resolution);
     }
     const Picture other = read_picture(reference, console);
     check_pair(picture, other, console);

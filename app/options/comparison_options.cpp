@@ -1,9 +1,18 @@
 #include "app/options/groups.h"
 
+#include <algorithm>
+
+#include "app/suite.h"
 #include "core/inspect/incident_light.h"
 
 namespace pl {
 namespace {
+
+/// One of the names of a table.
+void parse_name(std::string& name, const std::vector<std::string>& known, Text text) {
+    if (std::ranges::find(known, text) == known.end()) fail_choice(known, text);
+    name = text;
+}
 
 // clang-format off
 constexpr auto kComparisonOptions = std::to_array<OptionSpec>({
@@ -68,17 +77,33 @@ constexpr auto kComparisonOptions = std::to_array<OptionSpec>({
     {.name = "backend", .flags = "--backend", .value = "NAME,..", .group = kCompared,
      .help = "Back ends to compare: cpu, cuda (default: all that are available)",
      .commands = CommandSet(Command::Bench), .parse = parse_backends},
+    {.name = "suite", .flags = "--suite", .value = "NAME", .group = kCompared,
+     .help = "Scenes of this suite in place of SCENE..., as far as the folder of --scenes has them",
+     .commands = CommandSet(Command::Bench),
+     .parse = [](Options& o, Text text) { parse_name(o.suite, suite_names(), text); },
+     .print = [](const Options& o) { return o.suite; }, .values = describe_suites},
+    {.name = "scenes", .flags = "--scenes", .value = "DIR", .group = kCompared,
+     .help = "Folder with the scenes of the suite, which may lie in folders of it",
+     .commands = CommandSet(Command::Bench), .parse = parse_text<&Options::scenes_folder>},
+    {.name = "protocol", .flags = "--protocol", .value = "NAME", .group = kCompared,
+     .help = "Options by which others have measured; those that are given go over them",
+     .commands = CommandSet(Command::Bench),
+     .parse = [](Options& o, Text text) { parse_name(o.protocol, protocol_names(), text); },
+     .print = [](const Options& o) { return o.protocol; }, .values = describe_protocols},
+    {.name = "quick", .flags = "--quick", .value = "", .group = kCompared,
+     .help = "A short bench: three scenes of a suite, and these options, over those of a protocol and under those that are given",
+     .commands = CommandSet(Command::Bench), .parse = parse_flag<&Options::quick>, .values = describe_quick},
     {.name = "effects", .flags = "--effects", .value = "", .group = kCompared,
      .help = "Compare kernels instead of methods: the one that a scene needs, and those compiled for more "
              "effects; --seeds is the number of rounds",
-     .commands = CommandSet(Command::Bench), .parse = parse_flag<&Options::effects>},
+     .is_expert = true, .commands = CommandSet(Command::Bench), .parse = parse_flag<&Options::effects>},
     {.name = "seeds", .flags = "--seeds", .value = "N", .group = kCompared,
      .help = "Runs of each method on each scene and back end (default 10); intervals need at least 5",
      .commands = CommandSet(Command::Bench),
      .parse = [](Options& o, Text text) { o.seeds = static_cast<int>(parse_whole(text, 1, 100000)); }},
     {.name = "reference", .flags = "--reference", .value = "DIR", .group = kCompared,
      .help = "Folder of references; a missing one is an error (default: DIR/references, made as needed)",
-     .commands = CommandSet(Command::Bench), .parse = parse_text<&Options::reference_folder>},
+     .is_expert = true, .commands = CommandSet(Command::Bench), .parse = parse_text<&Options::reference_folder>},
     {.name = "reference-spp", .flags = "--reference-spp", .value = "N", .group = kCompared,
      .help = "Samples per pixel in each half of references made here (default 4096)",
      .is_expert = true, .commands = CommandSet(Command::Bench),
@@ -88,7 +113,7 @@ constexpr auto kComparisonOptions = std::to_array<OptionSpec>({
     {.name = "gate", .flags = "--gate", .value = "FILE", .group = kOutcome,
      .help = "Exit with 5 if a method takes longer to the same error than in this earlier results.json: by "
              "more than the tolerance even at the low end of its interval",
-     .commands = CommandSet(Command::Bench), .parse = parse_text<&Options::gate>},
+     .is_expert = true, .commands = CommandSet(Command::Bench), .parse = parse_text<&Options::gate>},
     {.name = "tolerance", .flags = "--tolerance", .value = "PERCENT", .group = kOutcome,
      .help = "Tolerance of the gate (default 10)",
      .is_expert = true, .commands = CommandSet(Command::Bench),

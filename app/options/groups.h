@@ -36,7 +36,7 @@ using Text = const std::string&;
 inline constexpr CommandSet kEverywhere(Command::View, Command::Render, Command::Replay, Command::Info,
                                         Command::Convert, Command::Devices, Command::Inspect, Command::Trace,
                                         Command::Compare, Command::Reference, Command::Bench, Command::Report,
-                                        Command::SelfTest);
+                                        Command::Score, Command::SelfTest);
 inline constexpr CommandSet kWithScene(Command::View, Command::Render, Command::Replay, Command::Info,
                                        Command::Inspect, Command::Trace, Command::Reference, Command::Bench);
 /// Choices for opening a scene.
@@ -54,7 +54,8 @@ inline constexpr CommandSet kSampling(Command::View, Command::Render, Command::R
 inline constexpr CommandSet kPictures(Command::View, Command::Render, Command::Replay);
 inline constexpr CommandSet kHeadless(Command::Render, Command::Replay, Command::Info, Command::Convert,
                                       Command::Devices, Command::Inspect, Command::Trace, Command::Compare,
-                                      Command::Reference, Command::Bench, Command::Report, Command::SelfTest);
+                                      Command::Reference, Command::Bench, Command::Report, Command::Score,
+                                      Command::SelfTest);
 inline constexpr CommandSet kFiles(Command::Render, Command::Inspect);
 inline constexpr CommandSet kWithStats(Command::Render, Command::Replay, Command::Inspect);
 inline constexpr CommandSet kWorking(Command::Render, Command::Replay, Command::Inspect, Command::Trace,

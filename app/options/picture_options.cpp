@@ -112,7 +112,7 @@ constexpr auto kPictureOptions = std::to_array<OptionSpec>({
      .print = [](const Options& o) { return std::string(o.render.next_event ? "on" : "off"); }},
     choosing<&Options::render, &RenderSettings::roulette>(
     {.name = "roulette", .flags = "--roulette", .value = "NAME", .group = kPicture, .help = "Rule of Russian roulette",
-     .is_expert = true, .commands = kSampling, .in_scene_files = true}),
+     .is_expert = true, .commands = kPaths, .in_scene_files = true}),
     choosing<&Options::render, &RenderSettings::guiding>(
     {.name = "guiding", .flags = "--guiding", .value = "NAME", .group = kPicture,
      .help = "Guided methods with light samples",

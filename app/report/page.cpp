@@ -116,8 +116,8 @@ std::string headlines(const bench::BenchSummary& summary, const std::string& sce
 }
 
 std::string cell_table(const bench::BenchSummary& summary, const std::string& scene) {
-    std::string text = "<table>\n" + row({"method", "back end", "runs", "relMSE at the end", "trimmed", "seconds",
-                                          "set-up s", "ms per sample", "slope", "bias %", "warm-up s"},
+    std::string text = "<table>\n" + row({"method", "back end", "runs", "relMSE at the end", "trimmed", "MSE", "FLIP",
+                                          "seconds", "set-up s", "ms per sample", "slope", "bias %", "warm-up s"},
                                          "th");
     for (const bench::CellSummary& cell : summary.cells) {
         if (cell.cell.scene != scene) continue;
@@ -126,6 +126,7 @@ std::string cell_table(const bench::BenchSummary& summary, const std::string& sc
                             100.0 * cell.signed_bias_interval.high};
         text += row({cell.cell.method, cell.cell.backend, std::to_string(runs),
                      bench::interval_text(cell.final_error, runs), bench::interval_text(cell.final_trimmed, runs),
+                     bench::interval_text(cell.final_mse, runs), bench::interval_text(cell.final_flip, runs),
                      bench::interval_text(cell.seconds, runs), bench::interval_text(cell.setup_seconds, runs),
                      fmt::format("{:.3g}", 1e3 * cell.seconds_per_sample.value),
                      bench::interval_text(cell.slope, runs), bench::interval_text(bias, runs),

@@ -1,29 +1,32 @@
 #include "core/bench/bench.h"
 
 #include <algorithm>
-#include <ctime>
+#include <cmath>
 #include <set>
 
 #include <fmt/format.h>
 
 #include "core/bench/reference_store.h"
+#include "core/measure/flip.h"
 
 namespace pl::bench {
 namespace {
-
-std::string utc_date() {
-    const std::time_t now = std::time(nullptr);
-    std::tm parts{};
-    gmtime_r(&now, &parts);
-    char text[32];
-    return {text, std::strftime(text, sizeof(text), "%Y-%m-%d %H:%M UTC", &parts)};
-}
 
 /// Share of a run that is over, by whichever limit is nearer.
 double share_done(const Session& session, FilmSlot slot, const RunLimits& limits) {
     double share = static_cast<double>(session.passes(slot)) / limits.spp;
     if (limits.seconds) share = std::max(share, charged_seconds(session.clocks(slot)) / *limits.seconds);
     return std::min(share, 1.0);
+}
+
+/// Of a run, by its limits of time and, where a reference tells the speed of `default`, of samples: those of methods that learn take
+/// longer. Empty if neither is known.
+std::optional<double> expected_seconds(const BenchScene& scene) {
+    std::optional<double> seconds = scene.limits.seconds;
+    if (scene.limits.target_error || !scene.reference) return seconds;
+    const auto& [first, second] = scene.reference->halves;
+    const double of_samples = scene.limits.spp * (first.seconds + second.seconds) / (first.spp + second.spp);
+    return std::min(seconds.value_or(of_samples), of_samples);
 }
 
 }  // namespace
@@ -36,6 +39,8 @@ Bench::Bench(BenchSettings settings, BenchObserver observer)
 BenchResults Bench::run() {
     const Json plan = settings_.plan.json();
     folder_.adopt_plan(plan);
+    take_references();
+    if (observer_.tell) observer_.tell(forecast());
     const bool complete = make_references() && make_runs();
     BenchResults results{.plan = plan,
                          .command = settings_.command,
@@ -47,6 +52,32 @@ BenchResults Bench::run() {
     results.summary = summarize(results.runs, method_order(plan));
     write_results(folder_, results);
     return results;
+}
+
+/// "references: 2 of 2 x 4096 samples per pixel; runs: 54, warm-ups included, one after the other about 1:48 min".
+std::string Bench::forecast() const {
+    const auto& scenes = settings_.plan.scenes;
+    const auto missing = std::ranges::count_if(scenes, [](const BenchScene& scene) { return !scene.reference; });
+    const std::vector<PlannedRun> runs = remaining_runs();
+    double seconds = 0.0;  // NaN: not known
+    for (const PlannedRun& run : runs) seconds += expected_seconds(scenes[run.scene]).value_or(NAN);
+    std::string text;
+    if (missing > 0)
+        text = fmt::format("references: {} of 2 x {} samples per pixel; ", missing, settings_.reference_spp);
+    text += fmt::format("runs: {}, warm-ups included", runs.size());
+    return text + (std::isfinite(seconds) ? ", one after the other about " + duration_text(seconds)
+                                          : ", whose time is not known before");
+}
+
+/// The complete ones of the bench's own folder.
+void Bench::take_references() {
+    const ReferenceStore store(folder_.references());
+    for (BenchScene& scene : settings_.plan.scenes) {
+        if (scene.reference) continue;
+        std::optional<Reference> found = store.find(content_of(*scene.description, scene.settings));
+        if (found && std::min(found->halves[0].spp, found->halves[1].spp) >= settings_.reference_spp)
+            scene.reference = std::make_shared<const Reference>(*std::move(found));
+    }
 }
 
 /// In the folder that was given; no reference is made there.
@@ -76,6 +107,7 @@ bool Bench::make_references() {
                                                   store);
         if (outcome.interrupted) return false;
         scene.reference = std::make_shared<const Reference>(std::move(outcome.reference));
+        if (observer_.tell) observer_.tell(forecast());
     }
     return true;
 }
@@ -93,13 +125,8 @@ Json Bench::references_json() const {
 
 /// For the report, which shows it beside the pictures of the runs.
 void Bench::save_reference_pictures() const {
-    for (const BenchScene& scene : settings_.plan.scenes) {
-        const auto& [first, second] = scene.reference->halves;
-        folder_.save_reference_picture(
-            scene.name, {.width = first.image.width,
-                         .height = first.image.height,
-                         .pixels = weighted_mean(first.image.pixels, first.spp, second.image.pixels, second.spp)});
-    }
+    for (const BenchScene& scene : settings_.plan.scenes)
+        folder_.save_reference_picture(scene.name, scene.reference->mean());
 }
 
 /// The runs missing in the folder, block by block, after a warm-up of each of their cells.
@@ -185,15 +212,21 @@ std::optional<FinishedRun> make_run(const BenchPlan& plan, const PlannedRun& pla
     RenderSettings settings = plan.methods[planned.method].settings(scene.settings);
     settings.seed = planned.seed;
     Session session(backend, scene.description, settings, scene.load_seconds);
-    RunObserver observer{.on_point = {}, .on_work = on_work};
-    if (!planned.warm_up && planned.seed == plan.first_seed)
-        observer.on_point = [&](const RunPoint&, const Snapshot& snapshot) {
-            finished.pictures.push_back(
-                {.width = snapshot.width, .height = snapshot.height, .pixels = snapshot.pixels});
-        };
+    const bool keeps_pictures = !planned.warm_up && planned.seed == plan.first_seed;
+    std::vector<Vec3f> last;
+    const RunObserver observer{.on_point =
+                                   [&](const RunPoint&, const Snapshot& snapshot) {
+                                       last = snapshot.pixels;
+                                       if (keeps_pictures)
+                                           finished.pictures.push_back({.width = snapshot.width,
+                                                                        .height = snapshot.height,
+                                                                        .pixels = snapshot.pixels});
+                                   },
+                               .on_work = on_work};
     auto series = record_run(session, slot_of(settings), scene.limits, scene.reference->pixels(), stop, observer);
     if (!series) return std::nullopt;
     finished.run.series = *std::move(series);
+    finished.run.flip = pl::mean_of(flip_map(last, scene.reference->mean().pixels, settings.width));
     return finished;
 }
 

@@ -43,6 +43,7 @@ using OnFinishedRun = std::function<void(FinishedRun)>;
 /// Watches a bench; all members may be empty.
 struct BenchObserver {
     const StopFlag* stop = nullptr;
+    std::function<void(const std::string&)> tell{};    ///< what is left to do and how long it takes: before it begins
     std::function<void(const ProgressState&)> show{};  ///< after each piece of work
     std::function<void(const BenchRun&)> on_run{};     ///< after each finished run
     /// Makes runs elsewhere, several at a time; empty: one after the other, here. Returns false if it was stopped.
@@ -60,6 +61,8 @@ public:
 
 private:
     void find_references();
+    void take_references();
+    std::string forecast() const;
     bool make_references();
     Json references_json() const;
     void save_reference_pictures() const;

@@ -55,7 +55,7 @@ inline constexpr std::string_view kResultsSchema = "pathlight.bench/1";
 // The plan of a bench: the compared scenes, methods, back ends and seeds, the order of the runs, and their settings.
 
 struct BenchScene {
-    std::string name;    ///< of its file; distinguishes the scenes of a bench
+    std::string name;    ///< of its file or folder; distinguishes the scenes of a bench
     std::string source;  ///< as its user names it
     std::shared_ptr<const SceneDescription> description;
     double load_seconds = 0.0;

@@ -1,6 +1,7 @@
 #include "core/bench/bench_results.h"
 
 #include <cmath>
+#include <ctime>
 #include <map>
 #include <set>
 #include <string_view>
@@ -42,6 +43,8 @@ Json summary_json(const BenchSummary& summary) {
         row.update({{"runs", cell.ends.size()},
                     {"relmse", interval_json(cell.final_error)},
                     {"relmse_trimmed", interval_json(cell.final_trimmed)},
+                    {"mse", interval_json(cell.final_mse)},
+                    {"flip", interval_json(cell.final_flip)},
                     {"seconds", interval_json(cell.seconds)},
                     {"seconds_per_sample", interval_json(cell.seconds_per_sample)},
                     {"setup_seconds", interval_json(cell.setup_seconds)},
@@ -117,7 +120,7 @@ std::string series_csv(const std::vector<BenchRun>& runs) {
 std::string summary_csv(const BenchSummary& summary) {
     std::string text = "scene,method,backend,runs,relmse,relmse_low,relmse_high,seconds,seconds_per_sample,"
                        "setup_seconds,slope,slope_low,slope_high,base,samples_factor,cost_factor,net_factor,net_low,"
-                       "net_high,ahead_from_seconds\n";
+                       "net_high,ahead_from_seconds,mse,flip\n";
     for (const CellSummary& cell : summary.cells) {
         text += fmt::format("{},{}", csv_cell(cell.cell), cell.ends.size());
         for (const double value : {cell.final_error.value, cell.final_error.low, cell.final_error.high,
@@ -133,18 +136,21 @@ std::string summary_csv(const BenchSummary& summary) {
                                        gain.net.high, gain.ahead_from_seconds.value_or(NAN)})
                 gain_columns.append(1, ',').append(csv_number(value));
         }
-        text += gain_columns + "\n";
+        text += fmt::format("{},{},{}\n", gain_columns, csv_number(cell.final_mse.value),
+                            csv_number(cell.final_flip.value));
     }
     return text;
 }
 
 std::string summary_markdown(const BenchSummary& summary) {
-    std::string text = "| scene | back end | method | runs | relMSE at the end | seconds | ms per sample | slope |\n"
-                       "| --- | --- | --- | --- | --- | --- | --- | --- |\n";
+    std::string text =
+        "| scene | back end | method | runs | relMSE at the end | MSE | FLIP | seconds | ms per sample | slope |\n"
+        "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n";
     for (const CellSummary& cell : summary.cells) {
         const std::size_t runs = cell.ends.size();
-        text += fmt::format("| {} | {} | {} | {} | {} | {} | {:.3g} | {} |\n", cell.cell.scene, cell.cell.backend,
-                            cell.cell.method, runs, interval_text(cell.final_error, runs),
+        text += fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} | {:.3g} | {} |\n", cell.cell.scene,
+                            cell.cell.backend, cell.cell.method, runs, interval_text(cell.final_error, runs),
+                            interval_text(cell.final_mse, runs), interval_text(cell.final_flip, runs),
                             interval_text(cell.seconds, runs), 1e3 * cell.seconds_per_sample.value,
                             interval_text(cell.slope, runs));
     }
@@ -199,6 +205,26 @@ void write_results(const BenchFolder& folder, const BenchResults& results) {
     write_text_file_atomic(folder.path() / "series.csv", series_csv(results.runs));
     write_text_file_atomic(folder.path() / "summary.csv", summary_csv(results.summary));
     write_text_file_atomic(folder.path() / "summary.md", summary_markdown(results.summary));
+}
+
+std::string utc_date() {
+    const std::time_t now = std::time(nullptr);
+    std::tm parts{};
+    gmtime_r(&now, &parts);
+    char text[32];
+    return {text, std::strftime(text, sizeof(text), "%Y-%m-%d %H:%M UTC", &parts)};
+}
+
+std::string summary_text(const BenchSummary& summary) {
+    std::string text;
+    for (const CellSummary& cell : summary.cells) {
+        const std::size_t runs = cell.ends.size();
+        text += fmt::format("{:<40} relMSE {}, {} s, {} runs\n", cell.cell.title(),
+                            interval_text(cell.final_error, runs), interval_text(cell.seconds, runs), runs);
+    }
+    for (const Comparison& comparison : summary.comparisons)
+        text += fmt::format("{} {}\n", comparison.cell.title(), headline(comparison.gain, comparison.base_method));
+    return text;
 }
 
 BenchResults read_results(const std::filesystem::path& file) {

@@ -18,6 +18,10 @@ struct BenchResults {
 
 /// Writes results.json, series.csv, summary.csv and summary.md.
 void write_results(const BenchFolder& folder, const BenchResults& results);
+/// The time now: "2026-11-29 23:00 UTC".
+std::string utc_date();
+/// A line for each cell and each comparison, as a terminal shows it.
+std::string summary_text(const BenchSummary& summary);
 /// Reads results.json of write_results(). Throws Error(Input).
 BenchResults read_results(const std::filesystem::path& file);
 

@@ -94,6 +94,7 @@ Json run_json(const BenchRun& run) {
               {"measure_seconds", run.series.measure_seconds},
               {"points", points}};
     if (!run.host.empty()) json["host"] = run.host;
+    if (run.flip) json["flip"] = *run.flip;
     return json;
 }
 
@@ -107,6 +108,7 @@ BenchRun run_from_json(const Json& json) {
                  .host = json.value("host", ""),
                  .series = {}};
     run.series.measure_seconds = json.at("measure_seconds");
+    if (const auto flip = json.find("flip"); flip != json.end()) run.flip = flip->get<double>();
     for (const Json& point : json.at("points")) run.series.points.push_back(point_from(point));
     if (run.series.points.empty()) throw Error(ErrorKind::Input, run.cell.title() + ": expected points, got none");
     return run;
@@ -138,6 +140,8 @@ CellSummary summarize_cell(const BenchCell& cell, const std::vector<const BenchR
     const auto geometric = [&runs](auto value) { return geometric_interval(values_of(runs, value)); };
     summary.final_error = geometric([](const BenchRun& run) { return run.end().metrics.relmse; });
     summary.final_trimmed = geometric([](const BenchRun& run) { return run.end().metrics.relmse_trimmed; });
+    summary.final_mse = geometric([](const BenchRun& run) { return run.end().metrics.mse; });
+    summary.final_flip = mean_interval(values_of(runs, [](const BenchRun& run) { return run.flip.value_or(NAN); }));
     summary.seconds = geometric(seconds_of);
     summary.seconds_per_sample = geometric([](const BenchRun& run) { return seconds_of(run) / run.end().spp; });
     summary.setup_seconds = mean_interval(

@@ -4,6 +4,7 @@
 #include <compare>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,7 @@ struct BenchRun {
     std::string commit = "unknown";  ///< of the program that made it
     std::string host{};              ///< that made it, in a job of several processes; else empty
     RunSeries series;
+    std::optional<double> flip{};  ///< mean FLIP of the last picture; empty in results of earlier versions
 
     const RunPoint& end() const { return series.points.back(); }
 };
@@ -55,7 +57,9 @@ struct CellSummary {
     std::vector<Curve> over_samples{};
     Interval final_error{};    ///< relmse at the ends of the runs
     Interval final_trimmed{};  ///< the trimmed relmse at the ends of the runs
-    Interval seconds{};        ///< charged, to the end
+    Interval final_mse{};
+    Interval final_flip{};  ///< NaN where FLIP was not measured
+    Interval seconds{};     ///< charged, to the end
     Interval seconds_per_sample{};
     Interval setup_seconds{};         ///< placing and precomputing; arithmetic, since it may be 0
     Interval slope{};                 ///< of error over samples: -1 where only noise is left

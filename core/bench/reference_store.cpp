@@ -52,6 +52,13 @@ PictureContent content_of(const SceneDescription& scene, const RenderSettings& s
             .max_depth = settings.max_depth};
 }
 
+LinearImage Reference::mean() const {
+    const auto& [first, second] = halves;
+    return {.width = first.image.width,
+            .height = first.image.height,
+            .pixels = weighted_mean(first.image.pixels, first.spp, second.image.pixels, second.spp)};
+}
+
 Noise Reference::noise() const {
     return has_samples() ? estimate_noise({halves[0].image.pixels, halves[1].image.pixels}, content.width) : Noise{};
 }

@@ -42,7 +42,8 @@ struct Reference {
     std::array<ReferenceHalf, 2> halves;
 
     ReferenceHalves pixels() const { return {halves[0].image.pixels, halves[1].image.pixels}; }
-    Noise noise() const;  ///< of the mean of both halves, weighted equally
+    LinearImage mean() const;  ///< of both halves, weighted by their samples
+    Noise noise() const;       ///< of the mean of both halves, weighted equally
     bool has_samples() const { return halves[0].spp > 0 && halves[1].spp > 0; }
 };
 

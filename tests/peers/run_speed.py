@@ -2,18 +2,22 @@
 """Paths per second of processor time, and noise by that time, of pathlight's methods and of Mitsuba 3's `path`, in turn in one run.
 
     run_speed.py SCENE.xml --program PATHLIGHT --folder DIR [--variant llvm_ad_rgb] [--spp 32] [--rounds 5]
+                 [--score DIR --reference HALF.exr HALF.exr]
 
 DIR gets a virtual environment with Mitsuba from PyPI. Its LLVM variants look for the library at DRJIT_LIBLLVM_PATH, if that is set.
 Times are without loading and compiling, with placing and learning: pathlight's is the difference to a picture of `default` with one sample,
 Mitsuba's first picture does not count. Both sample lights, and play roulette from the third or fourth vertex on. Noise is the variance
 of a channel over the rounds by the squared mean of all pictures of the renderer, in the mean over the picture, whole and without the worst
-thousandth; it is independent of a difference of the models. Exit code 77: Mitsuba cannot be installed here.
+thousandth; it is independent of a difference of the models. With --score, DIR gets the pictures and the score.json by which `pathlight score`
+measures their errors against a reference, such as one of `pathlight reference` of that size and depth. Exit code 77: Mitsuba cannot be installed here.
 """
 import argparse
+import json
 import math
 import os
 import re
 import resource
+import shutil
 import statistics
 import subprocess
 import sys
@@ -62,11 +66,16 @@ def for_mitsuba(scene, folder):
 class Renderer:
     """Pictures of a renderer, and the seconds of processor time that each took."""
     def __init__(self, name):
-        self.name, self.pictures, self.seconds = name, [], []
+        self.name, self.pictures, self.seconds, self.kept = name, [], [], []
 
-    def add(self, picture, seconds):
+    def add(self, picture, seconds, samples, options):
         self.pictures.append(read_pfm(picture)[2])
         self.seconds.append(seconds)
+        if options.score:
+            file = f"{re.sub('[^a-z0-9]+', '-', self.name.lower())}-{len(self.kept)}.pfm"
+            shutil.copy(picture, options.score / file)
+            self.kept.append({"file": file, "scene": options.scene.stem, "method": self.name, "seed": len(self.kept),
+                              "samples": samples, "seconds": seconds})
 
     def noise(self):
         """Mean of the variance by the squared mean, of all channels and of all but the worst thousandth."""
@@ -110,7 +119,13 @@ def main():
     parser.add_argument("--variant", default="llvm_ad_rgb")
     parser.add_argument("--spp", type=int, default=32)
     parser.add_argument("--rounds", type=int, default=5)
+    parser.add_argument("--score", type=Path)
+    parser.add_argument("--reference", type=Path, nargs="+")
     options = parser.parse_args()
+    if options.score:
+        if not options.reference:
+            parser.error("--score: expected --reference with it")
+        options.score.mkdir(parents=True, exist_ok=True)
     folder = options.folder.resolve()
     (folder / "speed").mkdir(parents=True, exist_ok=True)
     picture = folder / "speed.pfm"
@@ -119,13 +134,18 @@ def main():
     peer = Renderer(f"Mitsuba path, {options.variant}")
     ours = [Renderer(method) for method in METHODS]
     for seed in range(options.rounds):
-        peer.add(picture, mitsuba.render()[1])
+        peer.add(picture, mitsuba.render()[1], options.spp, options)
         loading = pathlight_seconds(options.program, options.scene, mitsuba.size, 1, "default", seed, picture)
         for renderer in ours:
             seconds = pathlight_seconds(options.program, options.scene, mitsuba.size, 1 + options.spp, renderer.name, seed,
                                         picture)
-            renderer.add(picture, (seconds - loading) * (1 + options.spp) / options.spp)
+            renderer.add(picture, (seconds - loading) * (1 + options.spp) / options.spp, 1 + options.spp, options)
     report(options, mitsuba.size, peer, ours)
+    if options.score:
+        (options.score / "score.json").write_text(json.dumps({
+            "schema": "pathlight.score/1", "device": f"{os.cpu_count()} threads, seconds of processor time",
+            "references": {options.scene.stem: [str(half.resolve()) for half in options.reference]},
+            "pictures": [kept for renderer in [peer, *ours] for kept in renderer.kept]}, indent=1))
 
 
 def report(options, size, peer, ours):

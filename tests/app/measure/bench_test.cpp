@@ -86,6 +86,11 @@ TEST_CASE("a bench leaves everything it knows") {
         CHECK(first.at("precompute") == seconds.at("precompute"));
     }
     CHECK(warm_ups == 3);
+    for (const json& cell : results.at("summary")) {
+        CHECK(cell.at("mse").at(0).get<double>() > 0.0);
+        const double flip = cell.at("flip").at(0);
+        CHECK((flip > 0.0 && flip < 1.0));
+    }
     // Header, and four points of nine runs.
     CHECK(lines_of(read_all(folder / "b/series.csv")).size() == 1 + 4 * 9);
     CHECK(lines_of(read_all(folder / "b/summary.csv")).size() == 1 + 3);
