@@ -119,24 +119,24 @@ void bind_field(nb::module_& module) {
     nb::class_<BoundField>(
         module, "Field",
         "A learned field as it was when Session.field() was called. Arrays are copies of what its volumes hold.")
-        .def_prop_ro("positions", &position_array, "Of the volumes. (volumes, 3) float32")
+        .def_prop_ro("positions", &position_array, nb::rv_policy::reference, "Of the volumes. (volumes, 3) float32")
         .def_prop_ro(
             "normals",
             [](const BoundField& field) {
                 return copy_array<float>(field.learned.volumes->normals, {field.volumes(), 3});
             },
-            "(volumes, 3) float32")
-        .def_prop_ro("directions", &direction_array,
+            nb::rv_policy::reference, "(volumes, 3) float32")
+        .def_prop_ro("directions", &direction_array, nb::rv_policy::reference,
                      "World directions through the middles of the cells. (volumes, cells, 3) float32")
-        .def_prop_ro("radiance", &cell_array<float, &VolumeInspection::radiance>,
+        .def_prop_ro("radiance", &cell_array<float, &VolumeInspection::radiance>, nb::rv_policy::reference,
                      "Learned incident radiance. (volumes, cells) float32")
-        .def_prop_ro("probabilities", &cell_array<float, &VolumeInspection::probability>,
+        .def_prop_ro("probabilities", &cell_array<float, &VolumeInspection::probability>, nb::rv_policy::reference,
                      "Of sampling each cell; cells have equal projected solid angles. (volumes, cells) float32")
-        .def_prop_ro("visits", &cell_array<std::uint32_t, &VolumeInspection::visits>,
+        .def_prop_ro("visits", &cell_array<std::uint32_t, &VolumeInspection::visits>, nb::rv_policy::reference,
                      "Training samples. (volumes, cells) uint32")
-        .def_prop_ro("mean_radiance", &volume_array<&VolumeInspection::mean_radiance>,
+        .def_prop_ro("mean_radiance", &volume_array<&VolumeInspection::mean_radiance>, nb::rv_policy::reference,
                      "Irradiance / pi. (volumes,) float32")
-        .def_prop_ro("bsdf_fraction", &volume_array<&VolumeInspection::bsdf_fraction>,
+        .def_prop_ro("bsdf_fraction", &volume_array<&VolumeInspection::bsdf_fraction>, nb::rv_policy::reference,
                      "Share of BSDF samples in the mixture that guides paths. (volumes,) float32")
         .def("pdf", &densities, nb::arg("positions"), nb::arg("normals"), nb::arg("directions"),
              "Density of the field per steradian, without the BSDF's part of the mixture. All (n, 3) -> (n,) "

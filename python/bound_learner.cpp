@@ -39,7 +39,7 @@ BoundSamples samples_of(const LearnerInput& input) {
 
 bool returns_radiance(const nb::handle& learner) {
     if (!nb::hasattr(learner, "returns")) return false;
-    const auto name = nb::cast<std::string>(nb::str(learner.attr("returns")));
+    const std::string name = nb::str(nb::object(learner.attr("returns"))).c_str();
     if (name != "radiance" && name != "probabilities")
         throw Error(ErrorKind::Usage,
                     fmt::format("learner, returns: expected 'probabilities' or 'radiance', got '{}'", name));
@@ -52,25 +52,19 @@ std::vector<float> cells_of(const nb::object& answer, std::size_t volumes, std::
     const auto values = nb::cast<nb::ndarray<const float, nb::c_contig, nb::device::cpu>>(array);
     if (values.ndim() != 2 || values.shape(0) != volumes || values.shape(1) != cells)
         throw Error(ErrorKind::Input, fmt::format("learner: expected an array of shape ({}, {}), got {}", volumes,
-                                                  cells, nb::cast<std::string>(nb::str(array.attr("shape")))));
+                                                  cells, nb::str(nb::object(array.attr("shape"))).c_str()));
     return {values.data(), values.data() + values.size()};
 }
 
 }  // namespace
 
-FieldLearner bound_learner(const nb::object& learner) {
+FieldLearner bound_learner(const nb::handle& learner) {
     if (!nb::hasattr(learner, "update"))
         throw Error(ErrorKind::Usage, fmt::format("learner: expected an object with a method update(samples), got {}",
-                                                  nb::cast<std::string>(nb::repr(learner))));
-    const bool are_radiance = returns_radiance(learner);
-    // Sessions copy and drop learners without the GIL.
-    const std::shared_ptr<nb::object> kept(new nb::object(learner), [](nb::object* object) {
+                                                  nb::repr(learner).c_str()));
+    return [learner, are_radiance = returns_radiance(learner)](const LearnerInput& input) {
         const nb::gil_scoped_acquire held;
-        delete object;
-    });
-    return [kept, are_radiance](const LearnerInput& input) {
-        const nb::gil_scoped_acquire held;
-        const nb::object answer = kept->attr("update")(samples_of(input));
+        const nb::object answer = learner.attr("update")(samples_of(input));
         return LearnedCells{.are_radiance = are_radiance,
                             .values = cells_of(answer, volume_count(input.tables),
                                                static_cast<std::size_t>(input.shape.cells.count()))};
@@ -83,12 +77,17 @@ void bind_learner(nb::module_& module) {
         "What a learner is told at an update: the training samples since the last one, and what the table knew "
         "before.\n\n"
         "The arrays are copies. A volume keeps its number; refinement adds volumes behind the others.")
-        .def_ro("sums", &BoundSamples::sums, "Sums of incident radiance, in steps of `unit`. (volumes, cells) int64")
-        .def_ro("counts", &BoundSamples::counts, "Training samples. (volumes, cells) uint32")
-        .def_ro("radiance", &BoundSamples::radiance, "Radiance learned so far. (volumes, cells) float32")
-        .def_ro("visits", &BoundSamples::visits, "Training samples so far. (volumes, cells) uint32")
-        .def_ro("positions", &BoundSamples::positions, "Of the volumes. (volumes, 3) float32")
-        .def_ro("normals", &BoundSamples::normals, "(volumes, 3) float32")
+        .def_ro("sums", &BoundSamples::sums, nb::rv_policy::reference,
+                "Sums of incident radiance, in steps of `unit`. (volumes, cells) int64")
+        .def_ro("counts", &BoundSamples::counts, nb::rv_policy::reference,
+                "Training samples. (volumes, cells) uint32")
+        .def_ro("radiance", &BoundSamples::radiance, nb::rv_policy::reference,
+                "Radiance learned so far. (volumes, cells) float32")
+        .def_ro("visits", &BoundSamples::visits, nb::rv_policy::reference,
+                "Training samples so far. (volumes, cells) uint32")
+        .def_ro("positions", &BoundSamples::positions, nb::rv_policy::reference,
+                "Of the volumes. (volumes, 3) float32")
+        .def_ro("normals", &BoundSamples::normals, nb::rv_policy::reference, "(volumes, 3) float32")
         .def_ro("unit", &BoundSamples::unit,
                 "Radiance of one step of the sums: the mean target is sums * unit / counts.")
         .def_ro("floor", &BoundSamples::floor, "Uniform share that the program mixes into the probabilities.");

@@ -7,7 +7,7 @@
 
 namespace pl {
 
-/// Calls `learner.update(samples)` under the GIL. Throws Error(Usage) if it has no such method.
-FieldLearner bound_learner(const nanobind::object& learner);
+/// Calls `learner.update(samples)` under the GIL. The caller keeps the learner alive. Throws Error(Usage) if it has no such method.
+FieldLearner bound_learner(const nanobind::handle& learner);
 
 }  // namespace pl

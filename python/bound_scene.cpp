@@ -167,10 +167,10 @@ void bind_scene(nb::module_& module) {
             [](const BoundScene& scene) {
                 return copy_array<float>(scene.description->positions, {scene.description->positions.size(), 3});
             },
-            "(n, 3) float32")
+            nb::rv_policy::reference, "(n, 3) float32")
         .def_prop_ro(
             "triangles", [](const BoundScene& scene) { return triangle_array(*scene.description); },
-            "Numbers of vertices, (m, 3) uint32; instanced meshes are there once.")
+            nb::rv_policy::reference, "Numbers of vertices, (m, 3) uint32; instanced meshes are there once.")
         .def("__repr__", &words_of);
 }
 

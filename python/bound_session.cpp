@@ -82,7 +82,10 @@ BoundSession::BoundSession(const BoundScene& scene, const nb::object& learner, c
     : scene_(scene) {
     const CommandLine line = command_line(scene.name, options);
     FieldLearner bound;
-    if (!learner.is_none()) bound = bound_learner(learner);
+    if (!learner.is_none()) {
+        bound = bound_learner(learner);
+        learner_ = learner;
+    }
     const nb::gil_scoped_release released;
     FieldFiles fields(line.options);
     options_ = resolve_options(line, *scene.description, fields.loaded());
@@ -176,8 +179,33 @@ std::string BoundSession::text() const {
                        options_.render.width, options_.render.height);
 }
 
+void BoundSession::drop_learner() {
+    session_->set_learner({});
+    learner_.reset();
+}
+
+namespace {
+
+int visit_learner(PyObject* self, visitproc visit, void* arg) {
+    Py_VISIT(Py_TYPE(self));
+    if (nb::inst_ready(self)) Py_VISIT(nb::inst_ptr<BoundSession>(self)->learner().ptr());
+    return 0;
+}
+
+int drop_learner_of(PyObject* self) {
+    nb::inst_ptr<BoundSession>(self)->drop_learner();
+    return 0;
+}
+
+PyType_Slot kCycleSlots[] = {{Py_tp_traverse, reinterpret_cast<void*>(visit_learner)},
+                             {Py_tp_clear, reinterpret_cast<void*>(drop_learner_of)},
+                             {0, nullptr}};
+
+}  // namespace
+
 void bind_session(nb::module_& module) {
-    nb::class_<BoundSession>(module, "Session", "A scene that is rendered: a film, and what is learned for it.")
+    nb::class_<BoundSession>(module, "Session", nb::type_slots(kCycleSlots),
+                             "A scene that is rendered: a film, and what is learned for it.")
         .def(nb::init<const BoundScene&, const nb::object&, const nb::kwargs&>(), nb::arg("scene"),
              nb::arg("learner") = nb::none(), nb::arg("options"),
              "options: those of `pathlight render`, with '_' for '-', such as method='reinforcement', width=512, "

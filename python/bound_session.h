@@ -30,6 +30,10 @@ public:
     nb::bytes png() const;
     std::string text() const;
 
+    // For the search for cycles, in which a learner that refers to its session would else stay.
+    const nb::object& learner() const { return learner_; }
+    void drop_learner();
+
 private:
     /// While one lives, another thread, or a learner, is refused.
     class Use {
@@ -48,6 +52,7 @@ private:
     Json statistics_of(const Snapshot& snapshot) const;
 
     BoundScene scene_;
+    nb::object learner_;  ///< null without one
     Options options_;
     std::optional<Session> session_;
     RunOutcome outcome_;  ///< of the last call of render()

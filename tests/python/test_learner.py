@@ -88,7 +88,7 @@ def fail(samples):
         (lambda s: np.full(s.radiance.shape, 1e300), pathlight.InputError, "got inf"),
         (lambda s: s.radiance[:-1], pathlight.InputError, r"expected an array of shape \(50, 64\), got \(49, 64\)"),
         (lambda s: s.radiance.ravel(), pathlight.InputError, r"got \(3200,\)"),
-        (lambda s: None, (pathlight.InputError, TypeError, ValueError), ""),
+        (lambda s: None, pathlight.InputError, "expected an array of shape"),
         (lambda s: "much", ValueError, "much"),
         (fail, ZeroDivisionError, "in the learner"),
     ],
@@ -136,14 +136,17 @@ ADVERSARIES = {
 }
 
 
+SEEDS = 32
+
+
 def batch_means(scene, seeds, learner, **options):
     """Mean of the film of each seed."""
     means = []
     for seed in seeds:
-        session = pathlight.Session(scene, seed=seed, learner=learner(seed), width=16, height=12, threads=1, **options)
-        while session.passes < 16:
+        session = pathlight.Session(scene, seed=seed, learner=learner(seed), width=32, height=24, threads=1, **options)
+        while session.passes < 8:
             try:
-                session.render(spp=16)
+                session.render(spp=8)
             except pathlight.InputError:
                 pass
         means.append(session.film().mean(dtype=np.float64))
@@ -152,14 +155,14 @@ def batch_means(scene, seeds, learner, **options):
 
 @pytest.fixture(scope="module")
 def default_means(door):
-    return batch_means(door, range(1001, 1065), lambda seed: None, method="default", nee=False)
+    return batch_means(door, range(1001, 1001 + SEEDS), lambda seed: None, method="default", nee=False)
 
 
 @pytest.mark.parametrize("name", ADVERSARIES)
 def test_no_learner_moves_the_mean_of_the_picture(door, default_means, name):
-    """Means of films of 64 seeds each (1 to 64 and 1001 to 1064; 192 pixels, 16 samples) by a learner and by default, without light
-    samples. Welch's statistic within 5: for each of six learners a false alarm has probability 6e-7. Power: a difference of eight
-    standard errors of the difference is found with probability 0.999; how large that is the test tells and limits to a tenth.
+    """Means of films by a learner and by default, without light samples: 32 seeds of each (1 to 32, 1001 to 1032), 768 pixels, 8 samples.
+    Welch's statistic within 5: a false alarm has probability 1e-5 for each of six learners (Student's t of 62 degrees). Power: a bias of
+    eight standard errors of the difference is found with probability 0.998, and these are below a tenth of the mean.
     """
 
     def learner(seed):
@@ -167,9 +170,10 @@ def test_no_learner_moves_the_mean_of_the_picture(door, default_means, name):
         return Own(lambda samples: ADVERSARIES[name](samples, random))
 
     means = batch_means(
-        door, range(1, 65), learner, method="reinforcement", guiding="always", nee=False, volumes=40, bins=64
+        door, range(1, 1 + SEEDS), learner, method="reinforcement", guiding="always", nee=False, volumes=40, bins=64
     )
-    error = np.hypot(means.std(ddof=1), default_means.std(ddof=1)) / np.sqrt(64)
+    error = np.hypot(means.std(ddof=1), default_means.std(ddof=1)) / np.sqrt(SEEDS)
     difference = means.mean() - default_means.mean()
     print(f"{name}: {difference / error:.2f} standard errors, each {error / default_means.mean():.4f} of the mean")
     assert abs(difference) < 5 * error
+    assert 8 * error < 0.1 * default_means.mean()

@@ -41,7 +41,7 @@ FLOOR_AND_LAMP = dict(
     triangles=[[0, 2, 1], [0, 3, 2], [4, 5, 6], [4, 6, 7]],
     materials={"floor": {"albedo": [0.5, 0.5, 0.5]}, "lamp": {"emission": [1, 2, 3]}},
     material_of=[0, 0, 1, 1],
-    camera={"eye": [0, 1.9, 0], "target": [0, 0, 0], "up": [0, 0, 1], "fov_deg": 30},
+    camera={"eye": [0, 1.9, 0], "target": [0, 0, 0], "up": [0, 0, 1], "fov_deg": 2},
 )
 
 

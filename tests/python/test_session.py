@@ -159,15 +159,17 @@ def test_sessions_and_films_leave_no_memory_behind():
 
     def render(times):
         for _ in range(times):
+            learner = Uniform()
             session = pathlight.Session(
-                scene, method="reinforcement", learner=Uniform(), width=16, height=16, volumes=50, bins=16, threads=1
+                scene, method="reinforcement", learner=learner, width=16, height=16, volumes=50, bins=16, threads=1
             )
             session.render(spp=1)
             session.film(), session.field().radiance, session.statistics()
+            learner.session = session  # a cycle, which the collector finds
         gc.collect()
 
-    render(200)
+    render(50)
     before = resident()
-    render(800)
-    # A session takes 100 kB and more: none of them stays.
+    render(200)
+    # A session takes 200 kB and more: none of them stays.
     assert resident() - before < 16e6
