@@ -45,6 +45,7 @@ void Console::warn_about(const SceneDescription& scene) {
 void Console::data(std::string_view bytes) { write(bytes); }
 
 void Console::write(std::string_view text) {
+    if (sink_) return sink_(text);
     log_.clear_status();
     if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0) failure_ = errno;
 }

@@ -1,8 +1,10 @@
 // Output of a subcommand: results to standard output, messages to the log.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "app/events.h"
 #include "app/option_values.h"
@@ -30,6 +32,9 @@ public:
     void keep_output_for_data() { is_for_data_ = true; }
     void data(std::string_view bytes);
 
+    /// Whatever would go to standard output goes to `sink` from now on.
+    void write_to(std::function<void(std::string_view)> sink) { sink_ = std::move(sink); }
+
     /// Throws Error(Runtime) if a write to standard output failed.
     void finish();
 
@@ -37,6 +42,7 @@ private:
     void write(std::string_view text);
 
     Log log_;
+    std::function<void(std::string_view)> sink_;  ///< empty: standard output
     bool json_ = false;
     bool quiet_ = false;
     bool is_for_data_ = false;

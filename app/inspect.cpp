@@ -88,13 +88,13 @@ LightGatherer trace_light(const Session& session, const VolumeInspection& volume
 /// Trains as run_passes() does; with --history in pieces, as long as the key frames are apart, and observed by `past`.
 RunOutcome train(Session& session, const Options& options, const InterruptGuard& interrupt, Console& console,
                  FieldPast& past) {
-    if (!options.history) return run_passes(session, options, interrupt, console, Until::Learned);
+    if (!options.history) return run_passes(session, options, *interrupt.flag(), console, Until::Learned);
     const FilmSlot slot = slot_of(options.render);
     Options piece = options;
     RunOutcome outcome;
     for (std::uint32_t passes = 1; !outcome.interrupted(); passes = FieldPast::next(passes)) {
         piece.spp = std::min(passes, options.spp_limit());
-        outcome = run_passes(session, piece, interrupt, console, Until::Learned);
+        outcome = run_passes(session, piece, *interrupt.flag(), console, Until::Learned);
         past.observe(session, slot.method);
         if (session.passes(slot) >= options.spp_limit() || outcome.ended_by != EndedBy::Spp) break;
     }

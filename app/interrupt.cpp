@@ -13,34 +13,28 @@ void on_signal(int) {
     if (raised_stop.exchange(true)) _exit(kExitInterrupted);
 }
 
-void handle(int signal, void (*handler)(int)) {
-    struct sigaction action {};
-    action.sa_handler = handler;
-    action.sa_flags = SA_RESTART;
-    sigemptyset(&action.sa_mask);
-    sigaction(signal, &action, nullptr);
-}
-
 /// Whether the program was started by `nohup`, or by something else for which a closed terminal is no reason to stop.
-bool outlives_terminal() {
-    struct sigaction action {};
-    return sigaction(SIGHUP, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
-}
-
-void install(void (*handler)(int)) {
-    const bool leave_hangup = outlives_terminal();
-    for (const int signal : kStopSignals)
-        if (signal != SIGHUP || !leave_hangup) handle(signal, handler);
+bool is_left_alone(int signal, const struct sigaction& before) {
+    return signal == SIGHUP && before.sa_handler == SIG_IGN;
 }
 
 }  // namespace
 
 InterruptGuard::InterruptGuard() {
     raised_stop = false;
-    install(on_signal);
+    struct sigaction action {};
+    action.sa_handler = on_signal;
+    action.sa_flags = SA_RESTART;
+    sigemptyset(&action.sa_mask);
+    for (std::size_t i = 0; i < kStopSignals.size(); ++i) {
+        sigaction(kStopSignals[i], nullptr, &before_[i]);
+        if (!is_left_alone(kStopSignals[i], before_[i])) sigaction(kStopSignals[i], &action, nullptr);
+    }
 }
 
-InterruptGuard::~InterruptGuard() { install(SIG_DFL); }
+InterruptGuard::~InterruptGuard() {
+    for (std::size_t i = 0; i < kStopSignals.size(); ++i) sigaction(kStopSignals[i], &before_[i], nullptr);
+}
 
 const StopFlag* InterruptGuard::flag() const { return &raised_stop; }
 

@@ -12,7 +12,8 @@ namespace pl {
 inline constexpr std::array kStopSignals{SIGINT, SIGTERM, SIGHUP};
 
 /// While one lives, kStopSignals raise the flag instead of ending the program; a second signal ends it at once
-/// with code 130. A program that was started to ignore SIGHUP, as `nohup` does, goes on to. One at a time.
+/// with code 130. A program that was started to ignore SIGHUP, as `nohup` does, goes on to. At its end the
+/// handlers of before come back. One at a time.
 class InterruptGuard {
 public:
     InterruptGuard();
@@ -22,6 +23,9 @@ public:
 
     const StopFlag* flag() const;
     bool raised() const { return flag()->load(); }
+
+private:
+    std::array<struct sigaction, kStopSignals.size()> before_{};
 };
 
 inline constexpr int kExitInterrupted = 130;

@@ -130,7 +130,7 @@ bool needs_no_training(const Options& options) {
 }  // namespace
 
 int trace_noise(Session& session, const Options& options, const InterruptGuard& interrupt, Console& console) {
-    if (!needs_no_training(options)) run_passes(session, options, interrupt, console, Until::Learned);
+    if (!needs_no_training(options)) run_passes(session, options, *interrupt.flag(), console, Until::Learned);
     const FilmSlot slot = slot_of(options.render);
     const auto pixel = static_cast<std::uint32_t>(options.pixel->y * options.render.width + options.pixel->x);
     diagnose::PixelNoiseTracer tracer(diagnose::pass_pair(session, slot), pixel);

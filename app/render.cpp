@@ -75,7 +75,7 @@ void report(const Snapshot& snapshot, const Options& options, const Json& stats,
 RunOutcome run_saved(Session& session, const Options& options, const InterruptGuard& interrupt, Console& console,
                      const RunAids& aids) {
     try {
-        const RunOutcome outcome = run_passes(session, options, interrupt, console, Until::Rendered, aids);
+        const RunOutcome outcome = run_passes(session, options, *interrupt.flag(), console, Until::Rendered, aids);
         aids.checkpoints->save(session, outcome.seconds);
         return outcome;
     } catch (const Error& error) {

@@ -69,7 +69,7 @@ private:
         if (options_.target_error) target.emplace(*options_.target_error);
         ErrorTarget* const aim = target ? &*target : nullptr;
         const RunOutcome outcome =
-            run_passes(session_, options_, interrupt_, console_, Until::Rendered, {.target = aim});
+            run_passes(session_, options_, *interrupt_.flag(), console_, Until::Rendered, {.target = aim});
         if (outcome.interrupted()) return false;
         const FilmSlot slot = slot_of(options_.render);
         if (aim != nullptr) aim->measure_last(session_, slot);

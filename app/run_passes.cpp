@@ -13,18 +13,17 @@ namespace {
 
 class Passes {
 public:
-    Passes(Session& session, const Options& options, const InterruptGuard& interrupt, Until until,
-           const RunAids& aids)
-        : session_(session), slot_(slot_of(options.render)), options_(options), interrupt_(interrupt), until_(until),
+    Passes(Session& session, const Options& options, const StopFlag& stop, Until until, const RunAids& aids)
+        : session_(session), slot_(slot_of(options.render)), options_(options), stop_(stop), until_(until),
           target_(aids.target), checkpoints_(aids.checkpoints) {}
 
     RunOutcome run(ProgressDisplay& progress) {
         EndedBy end = limit_met(false);
         while (end == EndedBy::Nothing) {
-            const Progress done = session_.advance(slot_, interrupt_.flag(), most_passes());
+            const Progress done = session_.advance(slot_, &stop_, most_passes());
             if (done == Progress::Stopped) return {EndedBy::Interruption, seconds()};
             end = limit_met(done == Progress::Rendered);
-            if (end == EndedBy::Nothing && interrupt_.raised()) end = EndedBy::Interruption;
+            if (end == EndedBy::Nothing && stop_) end = EndedBy::Interruption;
             if (end == EndedBy::Nothing && checkpoints_ != nullptr) checkpoints_->save_if_due(session_, seconds());
             progress.show(state());
         }
@@ -92,7 +91,7 @@ private:
     Session& session_;
     const FilmSlot slot_;
     const Options& options_;
-    const InterruptGuard& interrupt_;
+    const StopFlag& stop_;
     Until until_;
     ErrorTarget* target_;
     CheckpointFiles* checkpoints_;
@@ -128,10 +127,10 @@ void announce(const Session& session, Console& console) {
                             {"kernel", session.served_kernel(slot).name}});
 }
 
-RunOutcome run_passes(Session& session, const Options& options, const InterruptGuard& interrupt, Console& console,
-                      Until until, const RunAids& aids) {
+RunOutcome run_passes(Session& session, const Options& options, const StopFlag& stop, Console& console, Until until,
+                      const RunAids& aids) {
     ProgressDisplay progress(console, !options.no_progress && !options.quiet);
-    return Passes(session, options, interrupt, until, aids).run(progress);
+    return Passes(session, options, stop, until, aids).run(progress);
 }
 
 }  // namespace pl

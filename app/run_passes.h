@@ -2,7 +2,6 @@
 #pragma once
 
 #include "app/console.h"
-#include "app/interrupt.h"
 #include "app/state_files.h"
 #include "core/measure/error_target.h"
 #include "core/session/session.h"
@@ -36,8 +35,8 @@ struct RunAids {
     CheckpointFiles* checkpoints = nullptr;  ///< written along the way
 };
 
-/// Makes at least one sample per pixel unless interrupted.
-RunOutcome run_passes(Session& session, const Options& options, const InterruptGuard& interrupt, Console& console,
+/// Makes at least one sample per pixel unless `stop` is raised, an interruption.
+RunOutcome run_passes(Session& session, const Options& options, const StopFlag& stop, Console& console,
                       Until until = Until::Rendered, const RunAids& aids = {});
 
 }  // namespace pl

@@ -38,7 +38,7 @@ bool come_to_path(Session& session, std::uint32_t sample, const Options& options
     Options limits = options;
     limits.spp = passes_before(sample, options);
     limits.time_limit_seconds.reset();
-    if (*limits.spp > 0 && run_passes(session, limits, interrupt, console).interrupted()) return false;
+    if (*limits.spp > 0 && run_passes(session, limits, *interrupt.flag(), console).interrupted()) return false;
     Progress progress = Progress::Precomputed;
     while (progress == Progress::Precomputed && !interrupt.raised())
         progress = session.advance_to_path(slot_of(options.render), pixel_of(options), interrupt.flag());
@@ -72,7 +72,7 @@ void require_trace_outputs(const Options& options) {
 
 /// Renders the whole picture, then writes where something is wrong in it, and where it gains. Returns the exit code.
 int trace_picture(Session& session, const Options& options, const InterruptGuard& interrupt, Console& console) {
-    const RunOutcome outcome = run_passes(session, options, interrupt, console);
+    const RunOutcome outcome = run_passes(session, options, *interrupt.flag(), console);
     const Snapshot snapshot = session.snapshot(slot_of(options.render));
     bool is_complete = !outcome.interrupted();
     if (!options.diagnostics_file.empty()) {

@@ -29,8 +29,12 @@ public:
     /// Does the next piece of work on a film: a slice of precomputation if the method still needs it, else one sample for
     /// every pixel, followed by an update of the field if the method learns. Up to `most_passes` of these if the back end renders
     /// several at once and nothing but samples changes between them: the same bits as one after the other.
+    /// What a learner has thrown, or Error(Input) for what it has returned, is thrown at the end of the work: its update kept the table's
+    /// own probabilities, and the next call goes on.
     Progress advance(FilmSlot slot, const StopFlag* stop = nullptr, std::uint32_t most_passes = 1) {
-        return films_->advance(slot, stop, most_passes);
+        const Progress done = films_->advance(slot, stop, most_passes);
+        fields_->rethrow_failure();
+        return done;
     }
     /// Does the work before the path of one pixel in the next pass, for pass_replay(): a slice of precomputation if the method still
     /// needs it, else the choice of guidance and, within the first pass of a learner, the parts before the pixel's with their
@@ -39,6 +43,10 @@ public:
     Progress advance_to_path(FilmSlot slot, std::uint32_t pixel, const StopFlag* stop = nullptr) {
         return films_->advance_to_path(slot, pixel, stop);
     }
+
+    /// The learner of all later updates of methods that learn, of one process; an empty one: the table's own. Its time is that of
+    /// updates. Throws Error(Usage) if the field is not represented by tables.
+    void set_learner(FieldLearner learner) { fields_->set_learner(std::move(learner)); }
 
     /// Copy of a film and all statistics.
     Snapshot snapshot(FilmSlot slot) const;

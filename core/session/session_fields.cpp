@@ -4,6 +4,7 @@
 
 #include "core/base/error.h"
 #include "core/base/timer.h"
+#include "core/fields/field_choices.h"
 #include "core/kernel/integrator/probe.h"
 #include "core/scene/scene_hash.h"
 #include "core/session/path_settings.h"
@@ -121,15 +122,49 @@ void SessionFields::count(MethodId method, const PassCounters& counters) {
     learned.lookup_misses += counters.path.method.lookup_misses;
 }
 
-void SessionFields::update(MethodId method) {
+void SessionFields::set_learner(FieldLearner learner) {
+    if (learner && settings().representation != Representation::Table)
+        throw Error(ErrorKind::Usage, "a learner fills tables: expected --field table with it, got --field " +
+                                          std::string(name_of(settings().representation)));
+    learner_ = std::move(learner);
+}
+
+void SessionFields::rethrow_failure() {
+    if (learner_failure_) std::rethrow_exception(std::exchange(learner_failure_, nullptr));
+}
+
+/// Empty if the learner fails.
+std::optional<LearnedCells> SessionFields::ask_learner(MethodId method) {
+    try {
+        const HostField field = backend().download_field(method);
+        LearnedCells cells = learner_({placement_.shape(), *placement_.volumes(), tables_of(field)});
+        require_cells(placement_.shape(), placement_.count(), cells);
+        return cells;
+    } catch (...) {
+        learner_failure_ = std::current_exception();
+        return std::nullopt;
+    }
+}
+
+/// By the learner, if there is one. Where it fails the table's own probabilities stand.
+void SessionFields::update_arrays(MethodId method) {
+    const std::optional<LearnedCells> cells = learner_ ? ask_learner(method) : std::nullopt;
     backend().update_field(method);
+    if (!cells) return;
+    HostField field = backend().download_field(method);
+    take_cells(placement_.shape(), tables_of(field), *cells);
+    backend().upload_field(method, std::move(field));
+}
+
+void SessionFields::update(MethodId method) {
+    update_arrays(method);
     FieldProgress& learned = field(method);
     ++learned.updates;
     learned.is_well_trained = learned.records >= kEnoughSamplesPerVolume * placement_.count();
 }
 
 void SessionFields::update_within_pass(MethodId method) {
-    backend().update_field(method);
+    update_arrays(method);
     ++field(method).updates;
     field(method).has_part = true;
 }

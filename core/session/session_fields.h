@@ -4,10 +4,12 @@
 
 #include <array>
 #include <cstdint>
+#include <exception>
 #include <optional>
 #include <utility>
 #include <vector>
 
+#include "core/fields/field_learner.h"
 #include "core/session/edits.h"
 #include "core/session/learned_field.h"
 #include "core/session/placement.h"
@@ -61,6 +63,11 @@ public:
     /// Traces the probes of a coarse map, or the remaining probes of a slice. Returns false if it was stopped.
     bool precompute(FilmSlot slot, bool is_coarse, const StopFlag* stop);
 
+    /// See Session::set_learner().
+    void set_learner(FieldLearner learner);
+    /// Throws what a learner has thrown since the last call, or for what it has returned.
+    void rethrow_failure();
+
     /// Freezes, steps or continues learning. Returns RenderSettings::learn_passes from now on. `is_under_way`: a pass, which is
     /// completed as it was begun, and by which the field `trains`. Throws Error(Usage) for methods that do not learn.
     std::uint64_t control_learning(const EditLearning& edit, bool is_under_way, bool trains);
@@ -94,6 +101,8 @@ private:
     bool has_field(MethodId method) const { return placement_.is_placed() && backend().has_field(method); }
     FieldReport report(MethodId method) const;
     void require_volume(std::int32_t volume) const;
+    void update_arrays(MethodId method);
+    std::optional<LearnedCells> ask_learner(MethodId method);
     void forget_due_volumes(MethodId method);
 
     std::uint32_t probe_count(bool is_coarse) const;
@@ -104,6 +113,8 @@ private:
     const RenderInputs& inputs_;
     Placement placement_;
     std::array<FieldProgress, kMethodCount> fields_{};
+    FieldLearner learner_;  ///< empty: the representation's own
+    std::exception_ptr learner_failure_;
 };
 
 }  // namespace pl

@@ -40,6 +40,12 @@ TEST_CASE("the first interruption raises the flag, the second one ends the progr
               { const InterruptGuard guard; }
               raise(SIGINT);
           }) == 128 + SIGINT);
+    CHECK(in_child([] {
+              std::signal(SIGINT, SIG_IGN);
+              { const InterruptGuard guard; }
+              raise(SIGINT);
+              _exit(9);
+          }) == 9);
     for (const int signal : {SIGTERM, SIGHUP})
         CHECK(in_child([&] {
                   const InterruptGuard guard;

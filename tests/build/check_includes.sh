@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # check_includes.sh ROOT: does every file keep to the arrows of the architecture? Prints each breach, exits 1 if any.
-#   app -> ui -> core/bench, core/selftest, core/diagnose, core/inspect -> core/session -> core/scene, core/fields -> core/kernel;
+#   python -> app -> ui -> core/bench, core/selftest, core/diagnose, core/inspect -> core/session -> core/scene, core/fields -> core/kernel;
 #   core/io -> core/scene, and the records of a session that it writes;
 # and the order of the folders inside app, ui, cpu, core and core/kernel. Also checks what core/kernel may not contain, since
 # it is compiled for devices too.
@@ -85,6 +85,8 @@ app/options:  $below_app app
 app/option_table.cpp: $below_app app app/options
 app/measure:  $below_app app
 app/report:   $below_app app app/measure
+
+python:       $below_app app app/options
 "
 
 # <header pattern>: the only folders that may include it.
@@ -96,6 +98,7 @@ CLI/*:             app
 embree[34]/*:      tests
 omp.h:             cpu/base
 cuda*:             cuda
+nanobind/*:        python
 mpi.h:             mpi
 tiny_obj_loader.h: core/io
 Imf*:              core/io/exr.cpp
@@ -193,7 +196,7 @@ check_includes() {
     local pattern='^([^:]+):([0-9]+):[[:space:]]*#[[:space:]]*include[[:space:]]*([<"])([^>"]+)'
     local all
     all=$(grep -rnE '^[[:space:]]*#[[:space:]]*include' --include='*.h' --include='*.cpp' --include='*.cu' \
-        --include='*.cuh' --include='*.inc' core cpu cuda mpi ui app 2>/dev/null)
+        --include='*.cuh' --include='*.inc' core cpu cuda mpi ui app python 2>/dev/null)
     while IFS= read -r text; do
         [[ -n $text ]] && breach "$text"
     done <<<"$(grep -E 'include[[:space:]]*"' <<<"$all" | check_arrows)"
@@ -230,7 +233,7 @@ fi
 
 while IFS= read -r file; do
     [[ -n $file ]] && breach "$file: no #pragma once"
-done <<<"$(find core cpu cuda mpi ui app -name '*.h' -exec grep -L '^#pragma once' {} + 2>/dev/null)"
+done <<<"$(find core cpu cuda mpi ui app python -name '*.h' -exec grep -L '^#pragma once' {} + 2>/dev/null)"
 
 for folder in core/*/ core/kernel/*/ cpu/*/ ui/*/ app/*/; do
     folder=${folder%/}

@@ -9,7 +9,7 @@
 set -u
 cd "$1" || exit 2
 # Sorted, so that messages come in one order on every machine.
-mapfile -t files < <(find app core cpu cuda mpi ui -type f \
+mapfile -t files < <(find app core cpu cuda mpi python ui -type f \
     \( -name '*.h' -o -name '*.cpp' -o -name '*.cu' -o -name '*.cuh' -o -name '*.inc' \) 2>/dev/null | LC_ALL=C sort)
 ((${#files[@]} > 0)) || { echo "no sources in $1"; exit 2; }
 awk '

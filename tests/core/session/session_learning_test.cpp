@@ -4,6 +4,7 @@
 
 #include "tests/core/session/stopping_backend.h"
 #include "tests/support/catch.hpp"
+#include "tests/support/files/input_error.h"
 #include "tests/support/scenes/shipped_scenes.h"
 #include "tests/support/session/same_bits.h"
 #include "tests/support/session/small_settings.h"
@@ -257,4 +258,55 @@ TEST_CASE("a picture by a frozen field converges to that of default") {
     render_batches(frozen, a, 64, 8);
     render_batches(plain, b, 64, 8);
     CHECK(same_picture(a, b, 0.03));
+}
+
+TEST_CASE("a learner is asked at every update, and keeps the bits where it returns the table's own radiance") {
+    Session own = learner();
+    Session asked = learner();
+    std::uint32_t questions = 0;
+    asked.set_learner([&](const LearnerInput& input) {
+        ++questions;
+        HostTables tables = input.tables;
+        const TableUpdateView field = update_view(input.shape, tables);
+        for (std::uint32_t cell = 0; cell < tables.radiance.size(); ++cell) absorb_samples(field, cell);
+        return LearnedCells{.are_radiance = true, .values = {tables.radiance.begin(), tables.radiance.end()}};
+    });
+    for (int pass = 0; pass < 20; ++pass) {  // beyond the first refinement
+        render_passes(own, 1);
+        render_passes(asked, 1);
+        REQUIRE(same_state(state_of(own), state_of(asked)));
+    }
+    CHECK(questions >= 8);
+}
+
+TEST_CASE("a learner that fails is told of after a whole pass, and the table's own probabilities stand") {
+    Session own = learner();
+    Session asked = learner();
+    asked.set_learner([](const LearnerInput& input) {
+        return LearnedCells{.values = std::vector<float>(input.tables.radiance.size(), -1.0f)};
+    });
+    for (std::uint32_t pass = 1; pass <= 3; ++pass) {
+        render_passes(own, 1);
+        CHECK(input_error([&] {
+                  asked.advance(slot_of(asked));
+              }).starts_with("learner, probabilities of volume 0, cell 0"));
+        CHECK(asked.passes(slot_of(asked)) == pass);
+        CHECK(same_state(state_of(own), state_of(asked)));
+    }
+    asked.set_learner([](const LearnerInput&) -> LearnedCells { throw std::out_of_range("of its own"); });
+    CHECK_THROWS_AS(asked.advance(slot_of(asked)), std::out_of_range);
+    asked.set_learner({});
+    render_passes(asked, 1);
+    render_passes(own, 2);
+    CHECK(same_state(state_of(own), state_of(asked)));
+}
+
+TEST_CASE("a learner is for tables") {
+    const SceneDescription scene = shipped_scene("door");
+    RenderSettings settings = small_settings(scene, kLearningPaths);
+    settings.field.representation = Representation::SdTree;
+    Session session = make_session(scene, settings);
+    CHECK(error_message(ErrorKind::Usage, [&] {
+              session.set_learner([](const LearnerInput&) { return LearnedCells{}; });
+          }) == "a learner fills tables: expected --field table with it, got --field sd-tree");
 }

@@ -1,0 +1,247 @@
+#include "python/bound_session.h"
+
+#include <chrono>
+#include <future>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nanobind/stl/filesystem.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/string.h>
+
+#include "app/make_backend.h"
+#include "app/options/groups.h"
+#include "app/picture_target.h"
+#include "app/stats_json.h"
+#include "core/base/error.h"
+#include "core/io/picture_file.h"
+#include "python/bindings.h"
+#include "python/bound_learner.h"
+#include "python/option_words.h"
+
+namespace pl {
+namespace {
+
+bool is_of_session(const GivenOption& given) {
+    const std::string_view group = given.spec->group;
+    return (group == kPicture || group == kCamera || group == kField) && given.spec->name != "save-field";
+}
+
+bool is_of_scene(const LoadSettings& load) {
+    return !load.parameters.empty() || !load.camera.empty() || !load.materials.empty() || load.default_light ||
+           load.up_axis;
+}
+
+/// The command line that renders with these options.
+CommandLine command_line(const std::string& scene, const nb::kwargs& options) {
+    const std::string no_file = "none.exr";  // the command needs a name; no file is written
+    std::vector<std::string> arguments{"render", scene, "--output=" + no_file};
+    std::ranges::copy(option_words(options), std::back_inserter(arguments));
+    CommandLine line = parse_command_line(arguments);
+    for (const GivenOption& given : line.given)
+        if (!is_of_session(given) && given.text != no_file)
+            throw Error(ErrorKind::Usage, fmt::format("--{}: is no option of a session", given.spec->name));
+    if (is_of_scene(line.options.load))
+        throw Error(ErrorKind::Usage,
+                    "--define, --materials, --default-light, --up-axis, --camera NAME: expected where the scene is "
+                    "opened, Scene(..., parameters={...}, materials=..., ...)");
+    return line;
+}
+
+/// Runs work without the GIL on a thread of its own, so that this one sees Ctrl+C.
+template <class Work>
+auto interruptibly(StopFlag& stop, Work&& work) {
+    auto result = std::async(std::launch::async, std::forward<Work>(work));
+    std::optional<nb::python_error> raised;
+    {
+        const nb::gil_scoped_release released;
+        while (result.wait_for(std::chrono::milliseconds(50)) != std::future_status::ready) {
+            const nb::gil_scoped_acquire held;
+            if (raised || PyErr_CheckSignals() == 0) continue;
+            raised.emplace();
+            stop = true;
+        }
+    }
+    if (raised) throw *raised;
+    return result.get();
+}
+
+NumpyArray<float> picture_array(std::vector<Vec3f> pixels, int width, int height) {
+    return own_array<float>(std::move(pixels),
+                            {static_cast<std::size_t>(height), static_cast<std::size_t>(width), 3});
+}
+
+}  // namespace
+
+BoundSession::Use::Use(const BoundSession& session) : session_(session) {
+    if (session.is_used_.exchange(true))
+        throw Error(ErrorKind::Usage, "this session is in use by another thread, or asks its learner");
+}
+
+BoundSession::BoundSession(const BoundScene& scene, const nb::object& learner, const nb::kwargs& options)
+    : scene_(scene) {
+    const CommandLine line = command_line(scene.name, options);
+    FieldLearner bound;
+    if (!learner.is_none()) {
+        bound = bound_learner(learner);
+        learner_ = learner;
+    }
+    const nb::gil_scoped_release released;
+    FieldFiles fields(line.options);
+    options_ = resolve_options(line, *scene.description, fields.loaded());
+    options_.no_progress = true;
+    if (bound && !info_of(options_.render.method).learns)
+        throw Error(ErrorKind::Usage,
+                    fmt::format("learner: --method {} does not learn while it renders: expected reinforcement",
+                                info_of(options_.render.method).name));
+    session_.emplace(make_backend(options_.backend, options_.threads), scene.description, options_.render,
+                     scene.load_seconds + fields.load_seconds());
+    Console console;
+    fields.hand_over(*session_, options_, console);
+    if (bound) session_->set_learner(std::move(bound));
+}
+
+void BoundSession::render(std::optional<std::uint32_t> spp, std::optional<double> seconds,
+                          std::optional<double> target_error) {
+    const Use use(*this);
+    Options limits = options_;
+    if (spp || seconds || target_error) {
+        limits.spp = spp;
+        limits.time_limit_seconds = seconds;
+        limits.target_error = target_error;
+    }
+    target_.reset();
+    if (limits.target_error) target_.emplace(*limits.target_error);
+    StopFlag stop{false};
+    outcome_ = interruptibly(stop, [&] {
+        Console console;
+        const RunAids aids{.target = target_ ? &*target_ : nullptr};
+        return run_passes(*session_, limits, stop, console, Until::Rendered, aids);
+    });
+}
+
+Snapshot BoundSession::snapshot() const {
+    const nb::gil_scoped_release released;
+    return session_->snapshot(slot());
+}
+
+std::uint32_t BoundSession::passes() const {
+    const Use use(*this);
+    return session_->passes(slot());
+}
+
+NumpyArray<float> BoundSession::film() const {
+    const Use use(*this);
+    Snapshot picture = snapshot();
+    return picture_array(std::move(picture.pixels), picture.width, picture.height);
+}
+
+nb::tuple BoundSession::halves() const {
+    const Use use(*this);
+    Snapshot picture = session_->snapshot_with_halves(slot());
+    if (!picture.halves.are_both_there())
+        throw Error(ErrorKind::Usage, fmt::format("halves: expected two passes at least, got {}", picture.passes));
+    return nb::make_tuple(picture_array(std::move(picture.halves.mean[0]), picture.width, picture.height),
+                          picture_array(std::move(picture.halves.mean[1]), picture.width, picture.height));
+}
+
+Json BoundSession::statistics_of(const Snapshot& snapshot) const {
+    return stats_json(*session_, snapshot, options_, outcome_, target_ ? &*target_ : nullptr);
+}
+
+nb::object BoundSession::statistics() const {
+    const Use use(*this);
+    return from_json(statistics_of(snapshot()));
+}
+
+BoundField BoundSession::field() const {
+    const Use use(*this);
+    return {session_->export_field(options_.render.method)};
+}
+
+void BoundSession::save(const std::filesystem::path& path) const {
+    const Use use(*this);
+    const Snapshot picture = snapshot();
+    const std::string command =
+        command_text(Command::Render, options_, scene_defaults(options_.scene, *scene_.description));
+    save_picture(path, picture, options_.display,
+                 metadata_of(*session_, picture, statistics_of(picture), command, outcome_.interrupted()));
+}
+
+nb::bytes BoundSession::png() const {
+    const Use use(*this);
+    const std::string bytes = encode_picture(ImageKind::Png, snapshot(), options_.display, {});
+    return nb::bytes(bytes.data(), bytes.size());
+}
+
+std::string BoundSession::text() const {
+    return fmt::format("<pathlight.Session: {}, {}, {}x{}>", scene_.name, info_of(options_.render.method).name,
+                       options_.render.width, options_.render.height);
+}
+
+void BoundSession::drop_learner() {
+    session_->set_learner({});
+    learner_.reset();
+}
+
+namespace {
+
+int visit_learner(PyObject* self, visitproc visit, void* arg) {
+    Py_VISIT(Py_TYPE(self));
+    if (nb::inst_ready(self)) Py_VISIT(nb::inst_ptr<BoundSession>(self)->learner().ptr());
+    return 0;
+}
+
+int drop_learner_of(PyObject* self) {
+    nb::inst_ptr<BoundSession>(self)->drop_learner();
+    return 0;
+}
+
+PyType_Slot kCycleSlots[] = {{Py_tp_traverse, reinterpret_cast<void*>(visit_learner)},
+                             {Py_tp_clear, reinterpret_cast<void*>(drop_learner_of)},
+                             {0, nullptr}};
+
+}  // namespace
+
+void bind_session(nb::module_& module) {
+    nb::class_<BoundSession>(module, "Session", nb::type_slots(kCycleSlots),
+                             "A scene that is rendered: a film, and what is learned for it.")
+        .def(nb::init<const BoundScene&, const nb::object&, const nb::kwargs&>(), nb::arg("scene"),
+             nb::arg("learner") = nb::none(), nb::arg("options"),
+             "options: those of `pathlight render`, with '_' for '-', such as method='reinforcement', width=512, "
+             "height=512, seed=1, "
+             "nee=False, guiding='always', field='table', volumes=1000, bins=256, learn={'passes': 16}, "
+             "camera={'fov_deg': 40}, "
+             "backend='cpu', threads=2. What is not given is the scene's, or the program's default: the same "
+             "settings give the "
+             "same bits.\n\n"
+             "learner: an object with a method update(samples: Samples) that returns an array (volumes, cells) of "
+             "probabilities, of each "
+             "volume up to a factor, or, if its attribute `returns` is 'radiance', of incident radiance. It is "
+             "called at every update of "
+             "the table in place of the program's own learning. The program normalizes, keeps a uniform share and "
+             "the BSDF's part of the "
+             "mixture, and knows the exact densities: the mean of the picture stays right whatever it returns. "
+             "Another shape, nan, "
+             "infinite and negative numbers are an InputError of render(), which says where; the film stays sound.")
+        .def("render", &BoundSession::render, nb::kw_only(), nb::arg("spp") = nb::none(),
+             nb::arg("seconds") = nb::none(), nb::arg("target_error") = nb::none(),
+             "Renders until the film has `spp` samples per pixel, for `seconds` of this call, or down to a relMSE of "
+             "its noise; the first "
+             "limit that is reached ends it. Without any as the command line. Other threads of Python go on; Ctrl+C "
+             "ends it, and the next "
+             "call continues.")
+        .def_prop_ro("passes", &BoundSession::passes, "Samples per pixel of the film.")
+        .def("film", &BoundSession::film,
+             "Mean radiance, linear RGB, or the values of a view. (height, width, 3) float32, top row first")
+        .def("halves", &BoundSession::halves,
+             "The film by its even and by its odd passes, for estimates of its noise.")
+        .def("statistics", &BoundSession::statistics, "Counts and timings, the members of `--stats`.")
+        .def("field", &BoundSession::field, "A copy of what the method has learned so far.")
+        .def("save", &BoundSession::save, nb::arg("path"),
+             "Writes the picture: .exr and .pfm linear, .png tone mapped.")
+        .def("_repr_png_", &BoundSession::png)
+        .def("__repr__", &BoundSession::text);
+}
+
+}  // namespace pl

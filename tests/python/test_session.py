@@ -1,0 +1,175 @@
+"""Sessions: the bits of the command line, limits, interruption, threads, and memory."""
+
+import gc
+import os
+import signal
+import subprocess
+import threading
+import time
+
+import numpy as np
+import pytest
+
+import pathlight
+
+SMALL = dict(width=48, height=32, threads=2)
+
+
+def read_pfm(path):
+    with open(path, "rb") as file:
+        assert file.readline() == b"PF\n"
+        width, height = map(int, file.readline().split())
+        scale = float(file.readline())
+        assert scale < 0
+        return np.frombuffer(file.read(), "<f4").reshape(height, width, 3)[::-1]
+
+
+@pytest.mark.parametrize(
+    "options",
+    [
+        dict(method="default", nee=False, seed=3),
+        dict(method="reinforcement", guiding="always", volumes=100, bins=64),
+        dict(method="reinforcement", field="sd-tree", nee=False, learn={"passes": 4}),
+        dict(method="precomputed", bsdf_fraction=0.3, max_depth=5, camera={"fov_deg": 30}),
+    ],
+    ids=lambda options: options.get("field", options["method"]),
+)
+def test_the_same_settings_give_the_bits_of_the_command_line(program, tmp_path, options):
+    session = pathlight.Session(pathlight.Scene("door"), **SMALL, **options)
+    for spp in (1, 4, 7):  # in pieces
+        session.render(spp=spp)
+    picture = tmp_path / "film.pfm"
+    words = []
+    for name, value in {**SMALL, **options}.items():
+        if name == "camera":
+            name, value = "fov", value["fov_deg"]
+        if isinstance(value, dict):
+            value = ",".join(f"{key}={item}" for key, item in value.items())
+        if isinstance(value, bool):
+            value = "on" if value else "off"
+        words.append(f"--{name.replace('_', '-')}={value}")
+    subprocess.run([program, "render", "door", "-o", picture, "--spp=7", "-q", *words], check=True)
+    assert session.film().tobytes() == read_pfm(picture).tobytes()
+
+
+def test_a_film_is_an_array_of_its_own(door):
+    session = pathlight.Session(door, **SMALL)
+    assert session.passes == 0 and not session.film().any()
+    session.render(spp=2)
+    film = session.film()
+    assert film.shape == (32, 48, 3) and film.dtype == np.float32 and film.flags.writeable
+    kept = film.copy()
+    session.render(spp=4)
+    assert (film == kept).all() and (session.film() != kept).any()
+    even, odd = session.halves()
+    assert np.allclose(0.5 * (even + odd), session.film(), rtol=1e-5)
+    del session
+    assert (film == kept).all()
+
+
+def test_statistics_are_those_of_the_program(door):
+    session = pathlight.Session(door, method="reinforcement", seed=5, **SMALL)
+    session.render(spp=3)
+    statistics = session.statistics()
+    assert statistics["spp"] == 3 and statistics["seed"] == 5 and statistics["ended_by"] == "spp"
+    assert statistics["paths"] >= 3 * 48 * 32 and statistics["field"]["records"] > 0
+    assert "reinforcement" in repr(session) and session._repr_png_()[1:4] == b"PNG"
+
+
+def test_limits_end_a_rendering(door):
+    session = pathlight.Session(door, **SMALL)
+    session.render(seconds=0.2)
+    assert session.statistics()["ended_by"] == "time-limit"
+    passes = session.passes
+    session.render(spp=passes)
+    assert session.passes == passes
+    session.render(target_error=1e3)
+    assert session.statistics()["ended_by"] == "target-error"
+
+
+@pytest.mark.parametrize(
+    "options, text",
+    [
+        (dict(metod="default"), "--metod"),
+        (dict(method="defalt"), "default"),
+        (dict(width=0), "--width"),
+        (dict(output="a.png"), "--output: is no option of a session"),
+        (dict(spp=4), "--spp: is no option of a session"),
+        (dict(define="gap=1"), "Scene(..., parameters"),
+        (dict(backend="cuda", field="sd-tree", method="reinforcement"), "cuda"),
+        (dict(learner=object()), "update(samples)"),
+    ],
+)
+def test_errors_name_the_option(door, options, text):
+    with pytest.raises(pathlight.Error) as caught:
+        pathlight.Session(door, **options)
+    assert text in str(caught.value)
+
+
+def test_pictures_are_saved(door, tmp_path):
+    session = pathlight.Session(door, **SMALL)
+    session.render(spp=1)
+    session.save(tmp_path / "film.pfm")
+    assert read_pfm(tmp_path / "film.pfm").tobytes() == session.film().tobytes()
+    with pytest.raises(pathlight.UsageError):
+        session.save(tmp_path / "film.gif")
+
+
+def test_an_interruption_ends_a_rendering_which_goes_on_to_the_same_bits(door):
+    whole = pathlight.Session(door, **SMALL)
+    session = pathlight.Session(door, **SMALL)
+    threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT)).start()
+    began = time.monotonic()
+    with pytest.raises(KeyboardInterrupt):
+        session.render(seconds=60)
+    assert time.monotonic() - began < 30
+    spp = session.passes + 1
+    session.render(spp=spp)
+    whole.render(spp=spp)
+    assert session.film().tobytes() == whole.film().tobytes()
+
+
+def test_other_threads_go_on_and_may_not_use_the_session(door):
+    session = pathlight.Session(door, **SMALL)
+    work = threading.Thread(target=session.render, kwargs=dict(seconds=1.0))
+    work.start()
+    steps, refused = 0, 0
+    while work.is_alive():
+        steps += 1
+        try:
+            session.film()
+        except pathlight.UsageError:
+            refused += 1
+        time.sleep(0.01)
+    work.join()
+    assert steps > 10 and refused > 5
+    assert session.film().any()
+
+
+def test_sessions_and_films_leave_no_memory_behind():
+    scene = pathlight.Scene("furnace")
+
+    class Uniform:
+        def update(self, samples):
+            return np.ones_like(samples.radiance)
+
+    def resident():
+        with open("/proc/self/statm") as file:
+            return int(file.read().split()[1]) * os.sysconf("SC_PAGE_SIZE")
+
+    def render(times):
+        for _ in range(times):
+            learner = Uniform()
+            session = pathlight.Session(
+                scene, method="reinforcement", learner=learner, width=16, height=16, volumes=50, bins=16, threads=1
+            )
+            session.render(spp=1)
+            session.film(), session.field().radiance, session.statistics()
+            learner.session = session  # a cycle, which the collector finds
+        gc.collect()
+
+    render(50)
+    before = resident()
+    render(200)
+    # A session takes 200 kB and more: none of them stays.
+    assert resident() - before < 16e6
