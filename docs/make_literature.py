@@ -12,7 +12,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-from make_pictures import shrink
+from make_pictures import read_png, shrink
 from make_results import interval, verdict
 
 DOCS = Path(__file__).resolve().parent
@@ -51,7 +51,7 @@ def keep(folder):
             files = [Path(work) / f"{number}.png" for number in range(len(urls))]
             for file, url in zip(files, urls):
                 file.write_bytes(base64.b64decode(url.split(",", 1)[1]))
-            shrink([files], STRIPS / f"{scene['scene']}-{folder.name}.png")
+            shrink([[read_png(file) for file in files]], STRIPS / f"{scene['scene']}-{folder.name}.png")
 
 
 class Bench:
@@ -86,7 +86,7 @@ def about(benches):
              "Gains of guiding on scenes that papers on path guiding use, with intervals, with and without light samples, published figures beside",
              "them where settings agree. [make_literature.py](make_literature.py) makes this page of raw results in [literature](literature);",
              "[measuring.md](measuring.md#suites-and-protocols) tells how to repeat them. Terms and intervals are those of [measuring.md](measuring.md).", "",
-             f"* Machine: {machine}, which other work shared: gains at equal samples do not depend on that, times\n  and costs do, though runs of both methods alternate. Commit {', '.join(commits)}."]
+             f"* Machine: {machine}, which other work kept busy: gains at equal samples do not depend on that, but\n  times, costs and gains to the same error do, so that most of these are undecided. Commit {', '.join(commits)}."]
     lines.append("* References are two halves by `pathlight reference --method reinforcement`, which has the least noise where light is hidden; tests "
                  "hold\n  its means to those of `default`. Pictures are small and runs short: learning gains more in longer ones.\n"
                  "* A path that finds the sun or a lamp by chance weighs a thousand times as much as others where lights are not sampled: relMSE is then that of\n"
