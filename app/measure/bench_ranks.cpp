@@ -122,6 +122,8 @@ void share_plan(Communicator& ranks, const bench::BenchPlan& plan) {
         for (const bench::ReferenceHalf& half : scene.reference->halves) {
             std::vector<Vec3f> pixels = half.image.pixels;
             broadcast_array(ranks, pixels);
+            std::uint32_t spp = half.spp;
+            ranks.broadcast(bytes_of_value(spp));
         }
 }
 
@@ -148,7 +150,10 @@ bool take_plan(Communicator& ranks, const std::optional<bench::BenchPlan>& plan,
 void take_references(Communicator& ranks, bench::BenchPlan& plan) {
     for (bench::BenchScene& scene : plan.scenes) {
         bench::Reference reference;
-        for (bench::ReferenceHalf& half : reference.halves) broadcast_array(ranks, half.image.pixels);
+        for (bench::ReferenceHalf& half : reference.halves) {
+            broadcast_array(ranks, half.image.pixels);
+            ranks.broadcast(bytes_of_value(half.spp));
+        }
         scene.reference = std::make_shared<const bench::Reference>(std::move(reference));
     }
 }
