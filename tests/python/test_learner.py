@@ -136,7 +136,7 @@ ADVERSARIES = {
 }
 
 
-SEEDS = 32
+SEEDS = 128
 
 
 def batch_means(scene, seeds, learner, **options):
@@ -160,8 +160,8 @@ def default_means(door):
 
 @pytest.mark.parametrize("name", ADVERSARIES)
 def test_no_learner_moves_the_mean_of_the_picture(door, default_means, name):
-    """Means of films by a learner and by default, without light samples: 32 seeds of each (1 to 32, 1001 to 1032), 768 pixels, 8 samples.
-    Welch's statistic within 5: a false alarm has probability 1e-5 for each of six learners (Student's t of 62 degrees). Power: a bias of
+    """Means of films by a learner and by default, without light samples: 128 seeds of each (1 to 128, 1001 to 1128), 768 pixels, 8 samples.
+    Welch's statistic within 5: a false alarm has probability 1e-6 for each of six learners (Student's t of 254 degrees). Power: a bias of
     eight standard errors of the difference is found with probability 0.998, and these are below a tenth of the mean.
     """
 
