@@ -136,6 +136,12 @@ std::string hash_of(const LinearImage& image) {
     return fmt::format("{:016x}", hash.value());
 }
 
+/// Whether the next picture is of another run, or there is none.
+bool ends_run(const std::vector<ScoredPicture>& pictures, std::size_t i) {
+    return i + 1 == pictures.size() || pictures[i + 1].cell != pictures[i].cell ||
+           pictures[i + 1].seed != pictures[i].seed;
+}
+
 /// Measures pictures one by one, each reference once.
 class Scorer {
 public:
@@ -146,7 +152,8 @@ public:
     std::vector<BenchRun> runs(const std::vector<ScoredPicture>& pictures) {
         first_seed_ = std::ranges::min(pictures, {}, &ScoredPicture::seed).seed;
         std::vector<BenchRun> runs;
-        for (const ScoredPicture& picture : pictures) {
+        for (std::size_t i = 0; i < pictures.size(); ++i) {
+            const ScoredPicture& picture = pictures[i];
             if (runs.empty() || runs.back().cell != picture.cell || runs.back().seed != picture.seed)
                 runs.push_back({.cell = picture.cell, .seed = picture.seed, .device = file_.device(), .series = {}});
             std::vector<RunPoint>& points = runs.back().series.points;
@@ -160,8 +167,9 @@ public:
                                 picture.path.string(), points.back().spp, points.back().clocks.render,
                                 picture.samples, picture.seconds));
             points.push_back(std::move(point));
-            runs.back().flip =
-                pl::mean_of(flip_map(image.pixels, reference_of(picture.cell.scene).mean().pixels, image.width));
+            if (ends_run(pictures, i))
+                runs.back().flip =
+                    pl::mean_of(flip_map(image.pixels, reference_of(picture.cell.scene).mean().pixels, image.width));
         }
         return runs;
     }

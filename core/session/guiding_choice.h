@@ -56,9 +56,7 @@ public:
 
     bool is_measured(std::uint32_t pass) const { return pass + kMeasured >= decision_ && pass < decision_; }
     /// Whether trials or a decision may be due before this pass.
-    bool is_due_before(std::uint32_t pass) const {
-        return pass == 0 || (pass + kMeasured >= decision_ && pass <= decision_);
-    }
+    bool is_due_before(std::uint32_t pass) const { return pass == 0 || is_measured(pass) || pass == decision_; }
     /// The least ratio of variances at which guiding pays. `guidance`: the time of guidance at a vertex, over that by a table.
     static double least_ratio(double guidance);
 
