@@ -1,11 +1,9 @@
 #!/usr/bin/env python3
-"""Writes results.md of the folder of a bench, with its plots of error against time, the plot of the front page, and its results.json,
-compressed.
+"""Writes results.md and the plot of the front page of the raw results in results/.
 
-Usage: make_results.py BENCH   (after `pathlight bench SCENE... -o BENCH` with the options that results.md names, which makes the references,
-and `pathlight report BENCH`)
-       make_results.py           page and plot of the front page of the committed raw results
-       make_results.py --check   exit code 1 if these two are not what the raw results give
+Usage: make_results.py [BENCH...]   each folder of `pathlight bench SCENE... -o BENCH` that `pathlight report` has made a page of replaces the
+results of its name (one of TITLES), and its plots of error against time; without any, the page is made again of those that are there
+       make_results.py --check      exit code 1 if page and plot are not what the raw results give
 """
 import json
 import lzma
@@ -17,8 +15,11 @@ from pathlib import Path
 
 DOCS = Path(__file__).resolve().parent
 PLOTS = DOCS / "images" / "results"
-RAW = DOCS / "results.json.xz"
+RAW = DOCS / "results"
 GAINS = DOCS / "images" / "gains.svg"
+# The benches of the page, in its order. The first gives the plots.
+TITLES = {"light-samples-on": "With light samples", "light-samples-on-larger": "With light samples, larger pictures",
+          "light-samples-off": "Without light samples"}
 COLORS = {"faster": "#1b7f4d", "undecided": "#777777", "slower": "#b4370f"}
 
 
@@ -31,40 +32,39 @@ def interval(values, digits=3):
     return f"{values[0]:.{digits}g} ({values[1]:.{digits}g} to {values[2]:.{digits}g})"
 
 
-def head(results):
-    backends = results["plan"]["backends"]
-    machine = "; ".join(f"{name}: {b['device']}" + (f", {b['threads']} threads" if b["threads"] else "")
-                        for name, b in backends.items())
-    commits = ", ".join(results["commits"])
+def head(definitions):
     return f"""# Results
 
 This page has error against time of every method on every shipped scene. Each run starts with nothing learned, and placing, precomputing and
-learning are charged. [make_results.py](make_results.py) makes the page of one bench, whose [raw results](results.json.xz) are beside it.
+learning are charged. [make_results.py](make_results.py) makes the page of the [raw results](results) of benches.
 
-* Machine: {machine}. {results['date']}, version {results['version']}, commit {commits}.
-* Command: `{results['command']}`
-* References: {references(results)}.
-* relMSE is {results['definitions']['metrics']['relmse']} with epsilon {results['definitions']['metrics']['epsilon']},
-  taken against a reference in two halves, so that the reference's own noise drops out. Intervals: {results['definitions']['intervals']}{few_runs(results)}.
-* Pictures are small and runs short, so that the bench fits into minutes; the cost of an update of the tables does not depend on the size, and
+* The tables *to the same error* say how many times less time than the first method another method needs to equal error; below 1 it needs
+  more time.
+* relMSE is {definitions['metrics']['relmse']} with epsilon {definitions['metrics']['epsilon']},
+  taken against a reference in two halves, so that the reference's own noise drops out. Intervals: {definitions['intervals']}.
+* Pictures are small and runs short, so that a bench fits into minutes; the cost of an update of the tables does not depend on the size, and
   weighs less in larger pictures. `precomputed` ends after its first sample where precomputing takes longer than the limit.
-{light_samples(results)}
+* Light samples (next-event estimation) are the program's default. Learning gains most without them.
 
 """
+
+
+def section(name, results):
+    """A bench: how it was measured, and its tables."""
+    machine = "; ".join(f"{backend}: {b['device']}" + (f", {b['threads']} threads" if b["threads"] else "")
+                        for backend, b in results["plan"]["backends"].items())
+    return f"""## {TITLES[name]}
+* Machine: {machine}. {results['date']}, version {results['version']}, commit {', '.join(results['commits'])}.
+* Command: `{results['command']}`
+* References: {references(results)}{few_runs(results)}.
+
+""" + gains(results) + ends(results)
 
 
 def few_runs(results):
     """What intervals of fewer runs than kFewestRuns (core/measure/statistics.h) are worth."""
     fewest = min(s["runs"] for s in results["summary"])
-    return "" if fewest >= 5 else f".\n  They are of {fewest} runs and thus rough: `bench` itself prints none below 5"
-
-
-def light_samples(results):
-    """A line that says whether lights were sampled, which decides much of what learning can gain."""
-    if "--nee off" not in results["command"]:
-        return "* All runs have light samples (next-event estimation), the program's default."
-    return ("* No run has light samples (`--nee off`): learning gains most without them, and [less with them](learning.md#with-light-samples),\n"
-            "  the program's default.")
+    return "" if fewest >= 5 else f".\n  Intervals are of {fewest} runs and thus rough: `bench` itself prints none below 5"
 
 
 def references(results):
@@ -90,7 +90,7 @@ def word_of(low, high):
 def gains(results):
     base = results["plan"]["methods"][0]
     others = results["plan"]["methods"][1:]
-    rows = [f"## To the same error\nThe table says how many times less time than `{base}` a method needs to equal error; below 1 it needs more time.\n",
+    rows = [f"### To the same error as `{base}`\n",
             "| scene | back end | " + " | ".join(f"`{m}`" for m in others) + " |", "| --- " * (len(others) + 2) + "|"]
     cells = {(c["scene"], c["backend"], c["method"]): verdict(c) for c in results["comparisons"]}
     for scene, backend in sorted({(s, b) for s, b, _ in cells}):
@@ -112,7 +112,7 @@ def count_verdicts(cells, method):
 
 
 def ends(results):
-    rows = ["## Runs\n", "| scene | back end | method | runs | relMSE at the end | seconds | samples per second | bias | invalid |",
+    rows = ["### Runs\n", "| scene | back end | method | runs | relMSE at the end | seconds | samples per second | bias | invalid |",
             "| --- | --- | --- | --- | --- | --- | --- | --- | --- |"]
     for s in results["summary"]:
         per_sample = s["seconds_per_sample"][0]
@@ -162,29 +162,35 @@ def copy_plots(results, folder):
         shutil.copy(folder / f"{scene['name']}-time.svg", PLOTS)
 
 
-def page(results):
-    return head(results) + gains(results) + ends(results) + plots(results)
+def page(benches):
+    first = next(iter(benches.values()))
+    return head(first["definitions"]) + "".join(section(name, results) for name, results in benches.items()) + plots(first)
 
 
 def take_bench(folder):
-    """Copies raw results and plots of a bench."""
+    """Keeps the raw results of a bench and, if it is the first of the page, its plots."""
+    if folder.name not in TITLES:
+        sys.exit(f"{folder}: expected a folder named {', '.join(TITLES)}")
     raw = (folder / "results.json").read_bytes()
     results = json.loads(raw)
     if not results["complete"]:
         sys.exit(f"{folder}: the bench is not complete; run it again, it goes on where it was")
-    copy_plots(results, folder)
-    RAW.write_bytes(lzma.compress(raw, preset=9))
+    if folder.name == next(iter(TITLES)):
+        copy_plots(results, folder)
+    RAW.mkdir(exist_ok=True)
+    (RAW / f"{folder.name}.json.xz").write_bytes(lzma.compress(raw, preset=9))
 
 
 def main():
-    if len(sys.argv) > 2:
-        sys.exit(__doc__)
-    wanted = sys.argv[1] if len(sys.argv) == 2 else ""
-    if wanted not in ("", "--check"):
-        take_bench(Path(wanted))
-    results = json.loads(lzma.decompress(RAW.read_bytes()))
-    written = {DOCS / "results.md": page(results), GAINS: gains_plot(results)}
-    if wanted == "--check":
+    given = sys.argv[1:]
+    check = given == ["--check"]
+    if not check:
+        for folder in given:
+            take_bench(Path(folder))
+    files = {name: RAW / f"{name}.json.xz" for name in TITLES}
+    benches = {name: json.loads(lzma.decompress(file.read_bytes())) for name, file in files.items() if file.is_file()}
+    written = {DOCS / "results.md": page(benches), GAINS: gains_plot(next(iter(benches.values())))}
+    if check:
         stale = [path.name for path, text in written.items() if path.read_text() != text]
         sys.exit(f"not what the raw results give: {', '.join(stale)}" if stale else 0)
     for path, text in written.items():
