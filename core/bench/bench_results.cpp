@@ -161,6 +161,38 @@ std::string summary_markdown(const BenchSummary& summary) {
     return text;
 }
 
+std::string latex_text(const std::string& text) {
+    constexpr std::string_view kEscaped = "&%$#_{}";
+    std::string escaped;
+    for (const char c : text) {
+        if (c == '\\')
+            escaped += "\\textbackslash{}";
+        else if (c == '~' || c == '^')
+            (escaped += '\\').append(1, c) += "{}";
+        else
+            escaped.append(kEscaped.find(c) == kEscaped.npos ? 0 : 1, '\\').append(1, c);
+    }
+    return escaped;
+}
+
+/// A table of package booktabs: errors, and gains over the first method.
+std::string summary_latex(const BenchSummary& summary) {
+    std::string text =
+        "\\begin{tabular}{lllrrr}\n\\toprule\n"
+        "scene & back end & method & relMSE & fewer samples & less time to the same error \\\\\n\\midrule\n";
+    for (const CellSummary& cell : summary.cells) {
+        std::string gains = "&";
+        for (const Comparison& comparison : summary.comparisons)
+            if (comparison.cell == cell.cell)
+                gains = fmt::format("{} & {}", interval_text(comparison.gain.samples, comparison.gain.runs),
+                                    interval_text(comparison.gain.net, comparison.gain.runs));
+        text +=
+            fmt::format("{} & {} & {} & {} & {} \\\\\n", latex_text(cell.cell.scene), latex_text(cell.cell.backend),
+                        latex_text(cell.cell.method), interval_text(cell.final_error, cell.ends.size()), gains);
+    }
+    return text + "\\bottomrule\n\\end{tabular}\n";
+}
+
 }  // namespace
 
 std::vector<std::string> commits_of(const std::vector<BenchRun>& runs) {
@@ -205,6 +237,7 @@ void write_results(const BenchFolder& folder, const BenchResults& results) {
     write_text_file_atomic(folder.path() / "series.csv", series_csv(results.runs));
     write_text_file_atomic(folder.path() / "summary.csv", summary_csv(results.summary));
     write_text_file_atomic(folder.path() / "summary.md", summary_markdown(results.summary));
+    write_text_file_atomic(folder.path() / "summary.tex", summary_latex(results.summary));
 }
 
 std::string utc_date() {

@@ -1,4 +1,4 @@
-// The exports of a bench: results.json with all figures, tables in CSV and Markdown.
+// The exports of a bench: results.json with all figures, tables in CSV, Markdown and LaTeX.
 #pragma once
 
 #include "core/bench/bench_plan.h"
@@ -16,7 +16,7 @@ struct BenchResults {
     bool complete = false;  ///< all planned runs are in
 };
 
-/// Writes results.json, series.csv, summary.csv and summary.md.
+/// Writes results.json, series.csv, summary.csv, summary.md and summary.tex.
 void write_results(const BenchFolder& folder, const BenchResults& results);
 /// The time now: "2026-11-29 23:00 UTC".
 std::string utc_date();

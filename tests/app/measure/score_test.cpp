@@ -70,6 +70,7 @@ TEST_CASE("pictures of others have the errors and gains that follow from their p
     CHECK_THAT(gain.at("cost").at(0).get<double>(), WithinRel(0.5, 1e-9));
     CHECK_THAT(gain.at("net").at(0).get<double>(), WithinRel(4.0, 1e-9));
     CHECK_THAT(read_all(folder / "summary.md"), contains("| room | cpu | guided | 5 | 0.0619"));
+    CHECK_THAT(read_all(folder / "summary.tex"), contains("room & cpu & guided & 0.0619 (0.0619 to 0.0619) & 8 (8 to 8) & 4 (4 to 4) \\\\\n"));
     CHECK_THAT(read_all(folder / "series.csv"), contains("room,guided,cpu,3,0,2,0,0,0,0,0,0,8,8,0.0625,"));
     run_well({"report", folder.path().string()});
     CHECK_THAT(read_all(folder / "report.html"), contains("two cores") && contains("room"));
@@ -88,6 +89,15 @@ TEST_CASE("the halves of a reference take its noise out of the error") {
     CHECK(results.at("comparisons").at(0).at("base") == "guided");
     // (1.5 - 0.75) (1.5 - 1.25)
     CHECK_THAT(results.at("summary").at(1).at("mse").at(0).get<double>(), WithinRel(0.1875, 1e-12));
+}
+
+TEST_CASE("a table for LaTeX shows names as they are") {
+    const TempDir folder;
+    json file = two_methods(folder);
+    file["pictures"] = {picture("guided.exr", "a_b & 50%", 1, 16, 30.0)};
+    write_all(folder / "score.json", file.dump());
+    run_well({"score", folder.path().string()});
+    CHECK_THAT(read_all(folder / "summary.tex"), contains("room & cpu & a\\_b \\& 50\\% & 0.0619 & & \\\\\n"));
 }
 
 TEST_CASE("pictures of one run are points of a curve") {
