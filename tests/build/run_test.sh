@@ -90,7 +90,22 @@ refuse '--with cuda' "$err"
 fresh
 start --no-install --with opengl
 expect_code 2
-expect "expected cuda or mpi, got 'opengl'" "$err"
+expect "expected cuda, mpi or python, got 'opengl'" "$err"
+
+# The Python module is compiled apart from the program, for an environment that has what it takes.
+fresh
+start --no-install --with python info
+expect_code 4
+expect 'build/venv lacks nanobind or numpy' "$err"
+fresh
+mkdir -p "$work/root/build/venv/bin"
+printf '%s\n' '#!/bin/sh' "[ \"\$2\" = 'import nanobind, numpy' ] || echo \"$work/root/build/venv\"" >"$work/root/build/venv/bin/python"
+chmod +x "$work/root/build/venv/bin/python"
+start --no-install --with python info
+expect_code 0
+expect "-B $work/root/build/module --log-level=NOTICE -DPL_PYTHON=ON" "$calls"
+[[ $(<"$work/root/build/venv/pathlight.pth") == "$work/root/build/module/python" ]] || fail 'expected the path of the module'
+expect 'pathlight: info' "$out"
 
 # Tests compile device code wherever nvcc is, in continuous integration for one architecture; a start after them keeps it.
 fresh
