@@ -2,6 +2,8 @@
 #pragma once
 
 #include <span>
+#include <string_view>
+#include <vector>
 
 #include "core/kernel/guiding/vertex_network.h"
 #include "cpu/base/groups.h"
@@ -122,5 +124,10 @@ extern const LaneKernels kLaneKernelsAvx512;  ///< only in builds with PL_LANE_C
 std::span<const LaneKernels> usable_lane_kernels();
 
 inline const LaneKernels& best_lane_kernels() { return usable_lane_kernels().back(); }
+
+/// Instruction sets that this build has kernels for, narrowest vectors first.
+std::vector<std::string_view> compiled_lane_names();
+/// The instruction set whose kernels run on this machine.
+std::string_view used_lane_name();
 
 }  // namespace pl

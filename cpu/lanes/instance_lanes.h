@@ -141,7 +141,7 @@ PL_INLINE void for_rays(const WideInstances& scene, const RayGroup* rays, std::u
     }
 }
 
-PL_INLINE void closest_instances(const WideInstances& scene, const RayGroup* rays, HitGroup* hits,
+void find_closest_instances(const WideInstances& scene, const RayGroup* rays, HitGroup* hits,
                                  std::uint32_t count) {
     for_rays<false>(scene, rays, count, [&](std::uint32_t group, std::uint32_t lane, InstanceTraversal<false>& rest) {
         HitGroup& to = hits[group];
@@ -150,7 +150,7 @@ PL_INLINE void closest_instances(const WideInstances& scene, const RayGroup* ray
     });
 }
 
-PL_INLINE void occluding_instances(const WideInstances& scene, const RayGroup* rays, OcclusionMask* masks,
+void find_occluding_instances(const WideInstances& scene, const RayGroup* rays, OcclusionMask* masks,
                                    std::uint32_t count) {
     for_rays<true>(scene, rays, count, [&](std::uint32_t group, std::uint32_t lane, InstanceTraversal<true>& rest) {
         if (((masks[group] >> lane) & 1u) != 0) return;

@@ -82,7 +82,7 @@ PL_INLINE void copy_rows(const UniformGroup& uniforms, VectorGroup& to) {
     }
 }
 
-PL_INLINE void reach_vertices_of_groups(const SurfaceRows& scene, std::uint32_t max_depth, const BlockRows& block,
+void reach_vertices(const SurfaceRows& scene, std::uint32_t max_depth, const BlockRows& block,
                                         SegmentMarks& marks) {
     for (std::uint32_t group = 0; group < block.groups; ++group) {
         std::uint32_t hit = 0, emits = 0, scatters = 0, is_deepest = 0;
@@ -260,20 +260,46 @@ PL_INLINE void append_shadow_rays(const LightSampleGroup& samples, const std::ui
 
 /// Packs the shadow rays of a block's samples that can contribute, of the paths in `lit`, and keeps their contributions with the paths.
 /// Leaves in `lit` the paths that have one. `count`: of the rays in the batch, whose t_max is 1. Returns their number afterwards.
-PL_INLINE std::uint32_t pack_shadow_rays_of_groups(const VertexGroup* vertices, const LightSampleGroup* samples,
-                                                   BlockBits& lit, LitGroup* kept, RayGroup* rays,
-                                                   std::uint32_t count, std::uint32_t groups) {
-    for (std::uint32_t group = 0; group < groups; ++group) {
+std::uint32_t pack_shadow_rays(const BlockRows& block, const LightSampleGroup* samples, BlockBits& lit,
+                               LitGroup* kept, RayGroup* rays, std::uint32_t count) {
+    for (std::uint32_t group = 0; group < block.groups; ++group) {
         std::uint32_t lanes = 0;
         for (std::uint32_t first = 0; first < kGroupSize; first += kLaneWidth)
             lanes |= mask_bits(load_lanes<LaneFloat>(samples[group].pdf_sa + first) > 0.0f) << first;
         lanes &= lit.groups[group];
         lit.groups[group] = static_cast<std::uint16_t>(lanes);
         std::memcpy(&kept[group].contribution, &samples[group].contribution, sizeof kept[group].contribution);
-        append_shadow_rays(samples[group], vertices[group].primitive, lanes, rays, count);
+        append_shadow_rays(samples[group], block.vertices[group].primitive, lanes, rays, count);
         count += static_cast<std::uint32_t>(std::popcount(lanes));
     }
     return count;
+}
+
+void find_camera_directions(const Camera& camera, const PixelGrid& grid, const CounterGroup* counters,
+                            const UniformGroup* uniforms, VectorGroup* directions, std::uint32_t groups) {
+    for (std::uint32_t group = 0; group < groups; ++group)
+        for (std::uint32_t first = 0; first < kGroupSize; first += kLaneWidth)
+            CameraLanes(camera, grid, first).find(counters[group], uniforms[group], directions[group]);
+}
+
+void play_roulette(const PathSettings& settings, const BlockRows& block, const float* estimates,
+                   BlockBits& continuing) {
+    mark_path_lanes(block, continuing, [&](const PathLanes& lanes, std::uint32_t group) {
+        const float* of_group = estimates == nullptr ? nullptr : estimates + group * kGroupSize;
+        return lanes.play_roulette(settings, block.scatter[group], of_group);
+    });
+}
+
+void scatter_paths(const BlockRows& block, const DirectionGroup* directions, RayGroup* rays, BlockBits& lit) {
+    mark_path_lanes(block, lit, [&](const PathLanes& lanes, std::uint32_t group) {
+        return lanes.scatter(directions[group], lit.groups[group], rays[group]);
+    });
+}
+
+void connect_paths(const LitGroup* lights, const BlockBits& lit, PathGroup* paths, std::uint32_t groups) {
+    for (std::uint32_t group = 0; group < groups; ++group)
+        for (std::uint32_t first = 0; first < kGroupSize; first += kLaneWidth)
+            ConnectedLanes(paths[group], first).add(lights[group], lit.groups[group]);
 }
 
 }  // namespace

@@ -103,5 +103,37 @@ PL_INLINE void for_table_lanes(const LearningRows& rows, const Step& step) {
             step(TableLanes(rows, group, first), group);
 }
 
+BlockBits look_up_volumes(const VolumeRows& field, const LearningRows& rows, BlockBits& unknown) {
+    BlockBits served{};
+    for_table_lanes(rows, [&](const TableLanes& lanes, std::uint32_t group) {
+        const TableLanes::LookedUp found = lanes.look_up(field);
+        served.groups[group] = static_cast<std::uint16_t>(served.groups[group] | found.served);
+        unknown.groups[group] = static_cast<std::uint16_t>(unknown.groups[group] | found.unknown);
+    });
+    return served;
+}
+
+void estimate_contributions(const LearningRows& rows, const BlockBits& reached, BlockFloats& estimates) {
+    for_table_lanes(rows, [&](const TableLanes& lanes, std::uint32_t group) {
+        lanes.estimate(reached.groups[group], estimates.of + group * kGroupSize);
+    });
+}
+
+void complete_samples(const LearningRows& rows, bool is_indirect, float most, const BlockFloats& emitted,
+                      BlockFloats& targets, BlockBits& samples, BlockBits& clamped) {
+    for_table_lanes(rows, [&](const TableLanes& lanes, std::uint32_t group) {
+        const TableLanes::Completed completed =
+            lanes.complete(is_indirect, most, emitted.of + group * kGroupSize, targets.of + group * kGroupSize);
+        samples.groups[group] = static_cast<std::uint16_t>(samples.groups[group] | completed.samples);
+        clamped.groups[group] = static_cast<std::uint16_t>(clamped.groups[group] | completed.clamped);
+    });
+}
+
+void open_samples(const LearningRows& rows, const DirectionGroup* directions, const BlockBits& scattered) {
+    for_table_lanes(rows, [&](const TableLanes& lanes, std::uint32_t group) {
+        lanes.open(directions[group], scattered.groups[group]);
+    });
+}
+
 }  // namespace
 }  // namespace pl

@@ -211,7 +211,7 @@ private:
     alignas(64) float turned_[kMostCells];                      ///< [block of rows][column][row in the block]
 };
 
-PL_INLINE bool update_table_in_lanes(const TableUpdateView& field, std::uint32_t volume) {
+bool update_table(const TableUpdateView& field, std::uint32_t volume) {
     constexpr std::uint32_t kCommonSide = 16;  // the default
     const auto side = static_cast<std::uint32_t>(field.cells.side);
     if (side % kLaneWidth != 0) return false;
@@ -222,7 +222,7 @@ PL_INLINE bool update_table_in_lanes(const TableUpdateView& field, std::uint32_t
     return true;
 }
 
-PL_INLINE bool any_sample_in_lanes(const TableUpdateView& field, std::uint32_t volume) {
+bool has_samples(const TableUpdateView& field, std::uint32_t volume) {
     const auto cells = static_cast<std::uint32_t>(field.cells.side * field.cells.side);
     const std::uint32_t* counts = field.pending_count.data + static_cast<std::size_t>(volume) * cells;
     LaneUint found{};

@@ -171,13 +171,13 @@ PL_INLINE void for_guided_lanes(const TableSampler& tables, const VertexGroup* v
             step(GuidedLanes(tables, vertices[group], paths[group], first), group);
 }
 
-PL_INLINE void sample_rows_of_group(const TableSampler& tables, const VertexGroup& vertices, const GuidedGroup& paths,
+void sample_rows(const TableSampler& tables, const VertexGroup& vertices, const GuidedGroup& paths,
                                     SampledGroup& sampled) {
     for_guided_lanes(tables, &vertices, &paths, 1,
                      [&](const GuidedLanes& lanes, std::uint32_t) { lanes.sample_rows(sampled); });
 }
 
-PL_INLINE void weigh_guided_groups(const TableSampler& tables, const VertexGroup* vertices, const GuidedGroup* paths,
+void weigh_guided(const TableSampler& tables, const VertexGroup* vertices, const GuidedGroup* paths,
                                    const LightSampleGroup* lights, DirectionGroup* directions, std::uint32_t groups) {
     SampledGroup sampled[kBlockGroups];
     for_guided_lanes(tables, vertices, paths, groups, [&](const GuidedLanes& lanes, std::uint32_t group) {
@@ -188,12 +188,31 @@ PL_INLINE void weigh_guided_groups(const TableSampler& tables, const VertexGroup
     });
 }
 
-PL_INLINE void sample_guided_groups(const TableSampler& tables, const VertexGroup* vertices, const GuidedGroup* paths,
+void sample_guided(const TableSampler& tables, const VertexGroup* vertices, const GuidedGroup* paths,
                                     SampledGroup* sampled, DirectionGroup* directions, std::uint32_t groups) {
     for_guided_lanes(tables, vertices, paths, groups,
                      [&](const GuidedLanes& lanes, std::uint32_t group) { lanes.sample_direction(sampled[group]); });
     for_guided_lanes(tables, vertices, paths, groups, [&](const GuidedLanes& lanes, std::uint32_t group) {
         lanes.weigh(sampled[group], directions[group]);
+    });
+}
+
+void sample_lambert(const VertexGroup* vertices, DirectionGroup* directions, std::uint32_t groups) {
+    for_vertex_lanes(vertices, groups,
+                     [&](const VertexLanes& lanes, std::uint32_t group) { lanes.sample_lambert(directions[group]); });
+}
+
+void weigh_lambert(const VertexGroup* vertices, const LightSampleGroup* lights, DirectionGroup* directions,
+                   std::uint32_t groups) {
+    for_vertex_lanes(vertices, groups, [&](const VertexLanes& lanes, std::uint32_t group) {
+        lanes.weigh_lambert(lights[group], directions[group]);
+    });
+}
+
+void weigh_lights(const VertexGroup* vertices, const DirectionGroup* directions, LightSampleGroup* samples,
+                  std::uint32_t groups) {
+    for_vertex_lanes(vertices, groups, [&](const VertexLanes& lanes, std::uint32_t group) {
+        lanes.weigh_light(directions[group], samples[group]);
     });
 }
 

@@ -9,7 +9,6 @@
 #include "core/kernel/methods/targets/expected_sarsa.h"
 #include "core/kernel/methods/targets/frozen.h"
 #include "cpu/base/groups.h"
-#include "cpu/base/uniform_batch.h"
 #include "cpu/learning/lookups_ahead.h"
 #include "cpu/learning/training_queue.h"
 #include "cpu/paths/pass_setup.h"
@@ -73,6 +72,62 @@ inline constexpr bool kHooksInLanes = Hookless<M> || LaneLearning<M>;
 /// Whether the method is told of specular chains.
 template <FeatureSet F, class M>
 inline constexpr bool kTellsChains = F.has_any(kLobeFeatures) && !Hookless<M>;
+
+/// Random numbers of a batch of paths for their next vertices, bit-identical to draw_vertex_uniforms() of each path.
+class UniformBatch {
+public:
+    UniformBatch(std::uint32_t capacity, bool with_light)
+        : counters_(group_count(capacity)), scatter_(counters_.size()), light_(with_light ? counters_.size() : 0) {}
+
+    template <FeatureSet F, class M>
+    void set_path(std::uint32_t index, const PathState<F, M>& state) {
+        CounterGroup& group = counters_[index / kGroupSize];
+        const std::uint32_t lane = index % kGroupSize;
+        group.pixel[lane] = state.pixel;
+        group.sample[lane] = state.sample;
+        group.vertex[lane] = state.vertices + 1;
+    }
+
+    void move(std::uint32_t from, std::uint32_t to) {
+        const CounterGroup& source = counters_[from / kGroupSize];
+        CounterGroup& group = counters_[to / kGroupSize];
+        group.pixel[to % kGroupSize] = source.pixel[from % kGroupSize];
+        group.sample[to % kGroupSize] = source.sample[from % kGroupSize];
+        group.vertex[to % kGroupSize] = source.vertex[from % kGroupSize];
+    }
+    std::uint32_t pixel(std::uint32_t index) const { return counters_[index / kGroupSize].pixel[index % kGroupSize]; }
+    std::uint32_t sample(std::uint32_t index) const {
+        return counters_[index / kGroupSize].sample[index % kGroupSize];
+    }
+    CounterGroup* counter_groups() { return counters_.data(); }
+    const UniformGroup* scatter_groups() const { return scatter_.data(); }
+    /// Null without light sampling.
+    const UniformGroup* light_groups() const { return light_.empty() ? nullptr : light_.data(); }
+
+    /// Draws the numbers of the first `count` paths.
+    void draw(const PathSettings& settings, std::uint32_t count) {
+        DrawKey key{settings.seed, settings.stream, Purpose::Scatter, settings.sequences};
+        draw_rows(key, scatter_, count);
+        key.purpose = Purpose::Light;
+        if (!light_.empty()) draw_rows(key, light_, count);
+    }
+
+    VertexUniforms uniforms(std::uint32_t index) const {
+        VertexUniforms uniforms{.scatter = scatter_[index / kGroupSize].get(index % kGroupSize)};
+        if (!light_.empty()) uniforms.light = light_[index / kGroupSize].get(index % kGroupSize);
+        return uniforms;
+    }
+
+private:
+    void draw_rows(const DrawKey& key, std::vector<UniformGroup>& rows, std::uint32_t count) const {
+        kernels_.draw_vertices(key, counters_.data(), rows.data(), group_count(count));
+    }
+
+    LaneKernels kernels_ = best_lane_kernels();
+    std::vector<CounterGroup> counters_;
+    std::vector<UniformGroup> scatter_;
+    std::vector<UniformGroup> light_;  ///< empty without light sampling
+};
 
 /// The states of a batch of paths. Members of PathState that lanes do not read have no row: the glass around a path, its specular chain,
 /// its choice of lights, and the types of a method with hooks that are called path by path. Where there are any, they stay in a PathState
