@@ -89,9 +89,9 @@ struct LaneKernels {
     /// rays then. `lit`: comes in as the paths that have light samples, and leaves as those that have shadow rays, whose contributions
     /// are kept.
     std::uint32_t (*pack_shadow_rays)(const BlockRows& block, const LightSampleGroup* samples, BlockBits& lit,
-                                      LitGroup* kept, RayGroup* rays, std::uint32_t count);
+                                      VectorGroup* kept, RayGroup* rays, std::uint32_t count);
     /// Adds the contributions of light samples to the paths in `lit`.
-    void (*connect_paths)(const LitGroup* lights, const BlockBits& lit, PathGroup* paths, std::uint32_t groups);
+    void (*connect_paths)(const VectorGroup* lights, const BlockBits& lit, PathGroup* paths, std::uint32_t groups);
     /// The volumes of a block's vertices: what directions are sampled by, and their values. `rows`: served are the vertices that may have
     /// a volume. Returns those that have one, and marks those whose volume has no known node: their sites and normals are arbitrary.
     BlockBits (*look_up_volumes)(const VolumeRows& field, const LearningRows& rows, BlockBits& unknown);

@@ -260,9 +260,8 @@ private:
     Descent descents_[kBlockGroups * kVectors];
 };
 
-void choose_by_tree(const LightTreeRows& tree, const VertexGroup* receivers,
-                                        const LearnedLightsGroup* learned, LightSampleGroup* samples,
-                                        std::uint32_t groups) {
+void choose_by_tree(const LightTreeRows& tree, const VertexGroup* receivers, const LearnedLightsGroup* learned,
+                    LightSampleGroup* samples, std::uint32_t groups) {
     DescentsInTurn<LightChoiceLanes> choices(groups);
     choices.for_all([&](LightChoiceLanes& choice, std::uint32_t group, std::uint32_t first) {
         choice.start(tree, receivers[group], learned[group], first);

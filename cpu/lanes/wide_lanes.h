@@ -171,8 +171,7 @@ void find_closest_wide(const WideView& scene, const RayGroup* rays, HitGroup* hi
     });
 }
 
-void find_occluded_wide(const WideView& scene, const RayGroup* rays, OcclusionMask* masks,
-                                 std::uint32_t count) {
+void find_occluded_wide(const WideView& scene, const RayGroup* rays, OcclusionMask* masks, std::uint32_t count) {
     for (std::uint32_t group = 0; group < group_count(count); ++group) masks[group] = 0;
     trace_all<true>(scene, rays, count, [masks](std::uint32_t index, const Hit& hit) {
         const std::uint32_t bit = hit.primitive != kNoPrimitive ? 1u << (index % kGroupSize) : 0u;

@@ -2,6 +2,7 @@
 // volumes that are looked up before the paths reach their vertices, and queues of training samples.
 #pragma once
 
+#include <array>
 #include <new>
 #include <vector>
 
@@ -15,45 +16,48 @@
 
 namespace pl {
 
-/// State shared by the threads of a pass; empty for methods not guided by tables.
+/// Number of volumes that a method is guided by, if by tables.
 template <class M>
-struct SharedByThreads {
-    explicit SharedByThreads(const M&) {}
-};
-template <TableGuided M>
-struct SharedByThreads<M> {
-    VolumeLocks locks;
-
-    explicit SharedByThreads(const M& method) : locks(method.field.normals.count) {}
-};
+std::uint32_t guiding_volumes([[maybe_unused]] const M& method) {
+    if constexpr (TableGuided<M>)
+        return method.field.normals.count;
+    else
+        return 0;
+}
 
 /// Lookups and training samples of one thread. Methods not guided by tables look up and record path by path.
 template <class M>
-struct GuidedMemory {
-    GuidedMemory(const M& method, SharedByThreads<M>&) : method_(method) {}
-    void record(const typename M::Sample& sample) { method_.record(sample); }
-    void record_light(const typename M::Light& light, bool is_visible) { method_.record_light(light, is_visible); }
-    void flush() {}
-
-private:
-    const M& method_;
-};
-template <TableGuided M>
-struct GuidedMemory<M> {
-    LookupsAhead lookups[2];  ///< of the current and the next block
-
-    GuidedMemory(const M& method, SharedByThreads<M>& shared)
-        : training_(method, shared.locks), lights_(method, shared.locks) {}
-    void record(const typename M::Sample& sample) { training_.push(sample); }
-    void record_light(const typename M::Light& light, bool is_visible) { lights_.push(light, is_visible); }
+class GuidedMemory {
+public:
+    GuidedMemory(const M& method, VolumeLocks& locks)
+        : method_(method), training_(method, locks), lights_(method, locks) {}
+    void record(const typename M::Sample& sample) {
+        if constexpr (!TableGuided<M>)
+            method_.record(sample);
+        else if constexpr (kQueuesSamples)
+            training_.push(sample);
+    }
+    void record_light(const typename M::Light& light, bool is_visible) {
+        if constexpr (!TableGuided<M>)
+            method_.record_light(light, is_visible);
+        else if constexpr (kQueuesLights)
+            lights_.push(light, is_visible);
+    }
     void flush() {
-        training_.flush();
-        lights_.flush();
+        if constexpr (kQueuesSamples) training_.flush();
+        if constexpr (kQueuesLights) lights_.flush();
     }
 
+    [[no_unique_address]] MemberIf<TableGuided<M>, std::array<LookupsAhead, 2>>
+        lookups;  ///< of the current and the next block
+
 private:
-    TrainingQueue<M, QueuedSample<M>> training_;
-    TrainingQueue<M, QueuedLight<M>> lights_;
+    static constexpr bool kQueuesSamples = TableGuided<M> && !std::is_empty_v<typename M::Sample>;
+    static constexpr bool kQueuesLights = TableGuided<M> && !std::is_empty_v<typename M::Light>;
+
+    const M& method_;
+    [[no_unique_address]] MemberIf<kQueuesSamples, TrainingQueue<M, QueuedSample<M>>> training_;
+    [[no_unique_address]] MemberIf<kQueuesLights, TrainingQueue<M, QueuedLight<M>>> lights_;
 };
 
 /// Methods whose hooks do nothing.
@@ -110,12 +114,6 @@ public:
         draw_rows(key, scatter_, count);
         key.purpose = Purpose::Light;
         if (!light_.empty()) draw_rows(key, light_, count);
-    }
-
-    VertexUniforms uniforms(std::uint32_t index) const {
-        VertexUniforms uniforms{.scatter = scatter_[index / kGroupSize].get(index % kGroupSize)};
-        if (!light_.empty()) uniforms.light = light_[index / kGroupSize].get(index % kGroupSize);
-        return uniforms;
     }
 
 private:
@@ -188,7 +186,7 @@ public:
         state.direction_pdf_sa = group.direction_pdf_sa[lane];
         state.survival = group.survival[lane];
         state.vertices = group.vertices[lane];
-        if constexpr (F.has_any(kLobeFeatures)) state.specular.vertices = group.specular[lane];
+        if constexpr (F.has_any(kLobeFeatures)) state.specular_vertices = group.specular[lane];
         if constexpr (kOpensSamples) state.memory = open_sample(i);
         return state;
     }
@@ -223,7 +221,7 @@ public:
     /// The learned choice of lights where path i was last scattered.
     LearnedLights learned_lights(std::uint32_t i) const {
         if constexpr (learns_lights<F, M>)
-            return states_[i].lights.learned();
+            return states_[i].lights;
         else
             return {};
     }
@@ -257,8 +255,8 @@ private:
 /// The paths of a batch, with what their steps need.
 template <FeatureSet F, Method M>
 struct Paths {
-    Paths(const PassSetup& arguments, const M& of, SharedByThreads<M>& shared)
-        : setup(arguments), method(of), guided(method, shared), rows(arguments.batch_paths, samples_lights()) {}
+    Paths(const PassSetup& arguments, const M& of, VolumeLocks& locks)
+        : setup(arguments), method(of), guided(method, locks), rows(arguments.batch_paths, samples_lights()) {}
     Paths(const Paths&) = delete;
     Paths& operator=(const Paths&) = delete;
 

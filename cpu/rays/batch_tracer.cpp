@@ -108,8 +108,9 @@ BatchTracer::AnyIntersector BatchTracer::choose(const SceneView& scene) {
 }
 
 std::string BatchTracer::name() const {
-    return std::visit([](const auto& intersector) { return fmt::format("{} ({})", intersector.kName, intersector.isa()); },
-                      intersector_);
+    return std::visit(
+        [](const auto& intersector) { return fmt::format("{} ({})", intersector.kName, intersector.isa()); },
+        intersector_);
 }
 
 }  // namespace pl

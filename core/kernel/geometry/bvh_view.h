@@ -160,15 +160,12 @@ PL_HD inline bool can_hit(const Ray& ray) {
     return sum.x + sum.y + sum.z < kInfinity && max_component(size) > 0.0f;
 }
 
-/// Memory for the nodes that a traversal has still to visit: apart from its other members, which else would share its memory on a
-/// device instead of being registers.
-struct NodeMemory {
-    NodeReference entries[kMaxBvhDepth];
-};
-
+/// The nodes that a traversal has still to visit.
 class NodeStack {
 public:
-    PL_HD explicit NodeStack(NodeMemory& memory) : entries_(memory.entries) {}
+    /// `memory`: kMaxBvhDepth entries, apart from the other members of the traversal, which else would share its memory on a device instead
+    /// of being registers.
+    PL_HD explicit NodeStack(NodeReference* memory) : entries_(memory) {}
 
     PL_HD bool is_empty() const { return depth_ == 0; }
     PL_HD void push(NodeReference node) {
@@ -214,7 +211,7 @@ template <class Visit>
 PL_HD inline bool traverse_nodes(const BvhNode* nodes, const BvhNode& root, const BoxRay& ray, Hit& best,
                                  Visit&& visit) {
     if (intersect_box(root, ray, best.t) == kInfinity) return false;
-    NodeMemory memory;
+    NodeReference memory[kMaxBvhDepth];
     NodeStack stack(memory);
     NodeReference current = root.reference();
     while (true) {
