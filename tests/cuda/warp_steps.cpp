@@ -68,7 +68,7 @@ std::vector<Lane> lanes_of(const std::vector<Ray>& rays) { return {rays.begin(),
 /// either meets a pair of nodes, step(0), or the triangles of a leaf, step(triangles).
 template <class Step>
 void walk_plain(const BvhView& bvh, Lane& lane, Step&& step) {
-    NodeReference memory[kMaxBvhDepth];
+    NodeMemory memory;
     PostponedTraversal way(bvh, *lane.ray, lane.best.t, memory);
     while (way.is_at_inner_node() || way.has_leaf()) {
         if (way.has_leaf()) {

@@ -8,8 +8,9 @@
 
 namespace pl {
 
-/// In the place of a T that is not there: made of its arguments, and empty.
-template <class T>
+/// In the place of a T that is not there: made of its arguments, and empty. Several of one T in an object need different tags: objects of
+/// one type have addresses of their own, even if they are empty.
+template <class T, int kTag>
 struct Absent {
     constexpr Absent() = default;
     template <class... Arguments>
@@ -17,8 +18,8 @@ struct Absent {
 };
 
 /// The type of a member that is there in some instances of a template alone.
-template <bool kIsThere, class T>
-using MemberIf = std::conditional_t<kIsThere, T, Absent<T>>;
+template <bool kIsThere, class T, int kTag = 0>
+using MemberIf = std::conditional_t<kIsThere, T, Absent<T, kTag>>;
 
 template <class... Types>
 struct TypeList {

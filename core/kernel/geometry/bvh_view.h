@@ -160,12 +160,15 @@ PL_HD inline bool can_hit(const Ray& ray) {
     return sum.x + sum.y + sum.z < kInfinity && max_component(size) > 0.0f;
 }
 
-/// The nodes that a traversal has still to visit.
+/// Memory for the nodes that a traversal has still to visit: apart from its other members, which else would share its memory on a
+/// device instead of being registers.
+struct NodeMemory {
+    NodeReference entries[kMaxBvhDepth];
+};
+
 class NodeStack {
 public:
-    /// `memory`: kMaxBvhDepth entries, apart from the other members of the traversal, which else would share its memory on a device instead
-    /// of being registers.
-    PL_HD explicit NodeStack(NodeReference* memory) : entries_(memory) {}
+    PL_HD explicit NodeStack(NodeMemory& memory) : entries_(memory.entries) {}
 
     PL_HD bool is_empty() const { return depth_ == 0; }
     PL_HD void push(NodeReference node) {
@@ -211,7 +214,7 @@ template <class Visit>
 PL_HD inline bool traverse_nodes(const BvhNode* nodes, const BvhNode& root, const BoxRay& ray, Hit& best,
                                  Visit&& visit) {
     if (intersect_box(root, ray, best.t) == kInfinity) return false;
-    NodeReference memory[kMaxBvhDepth];
+    NodeMemory memory;
     NodeStack stack(memory);
     NodeReference current = root.reference();
     while (true) {

@@ -12,8 +12,7 @@ namespace pl {
 /// traverse(), after more nodes; the closest hit is the same, because it does not depend on the order of the tests.
 class PostponedTraversal {
 public:
-    /// `memory`: see NodeStack.
-    PL_HD PostponedTraversal(const BvhView& bvh, const Ray& ray, float t_max, NodeReference* memory)
+    PL_HD PostponedTraversal(const BvhView& bvh, const Ray& ray, float t_max, NodeMemory& memory)
         : bvh_(bvh), box_ray_(make_box_ray(bvh.nodes[0], ray)), stack_(memory) {
         const BvhNode root = bvh.nodes[0];
         if (intersect_box(root, box_ray_, t_max) == kInfinity) return;
@@ -75,7 +74,7 @@ PL_HD inline void traverse(const PostponingBvh& scene, const Ray& ray, Hit& best
     const BvhView& bvh = scene.bvh;
     if (bvh.nodes.empty() || !can_hit(ray)) return;
     const LaneGroup lanes = LaneGroup::active();
-    NodeReference memory[kMaxBvhDepth];
+    NodeMemory memory;
     PostponedTraversal way(bvh, ray, best.t, memory);
     while (lanes.any(!way.is_over())) {
         while (lanes.any(way.looks_for_leaf()))

@@ -72,7 +72,7 @@ struct PathState {
     [[no_unique_address]] MemberIf<F.has_any(kLobeFeatures), SpecularChain> chain{};
     /// Until the path first plays roulette, up to a limit.
     [[no_unique_address]] MemberIf<F.has_any(kLobeFeatures), std::uint32_t> specular_vertices{};
-    [[no_unique_address]] MemberIf<kTracksMedium<F>, std::uint32_t> medium{
+    [[no_unique_address]] MemberIf<kTracksMedium<F>, std::uint32_t, 1> medium{
         kNoMedium};  ///< material of the glass around it
     [[no_unique_address]] MemberIf<learns_lights<F, M>, LearnedLights>
         lights{};  ///< at the vertex of direction_pdf_sa
