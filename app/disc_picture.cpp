@@ -106,7 +106,7 @@ std::vector<std::string> hemisphere_lines(const VolumeInspection& volume, const 
             fmt::format("normal {} (cross in the center)", short_vector(volume.normal)),
             fmt::format("right {}", short_vector(frame.right())),
             fmt::format("up {} (arrow{}), camera: ring", short_vector(frame.up()),
-                        frame.up_means() == DiscUp::Scene ? "" : ", up in the picture"),
+                        frame.up_is_scene() ? "" : ", up in the picture"),
             "logarithmic colors"};
 }
 

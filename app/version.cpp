@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "cpu/base/lane_names.h"
+#include "cpu/base/lane_kernels.h"
 
 namespace pl {
 namespace {

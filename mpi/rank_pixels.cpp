@@ -27,7 +27,7 @@ void RankWork::gather_film(FilmSlot slot) {
     film.is_gathered = true;
     std::vector<FilmPixel> pixels;
     for (int rank = 1; rank < ranks_.size(); ++rank)
-        for (const PixelRange& range : film.shares.shares_of(rank)) {
+        for (const IndexRange& range : film.shares.shares_of(rank)) {
             pixels.resize(range.count());
             if (ranks_.rank() == rank) {
                 locally([&] { backend_->read_pixels(slot, range.begin, pixels); });
@@ -68,20 +68,20 @@ void RankWork::move_pixels(FilmSlot slot, const Shares& from, const Shares& to) 
     const auto each_part = [&](const Shares& mine, const Shares& others, auto&& fn) {
         for (int other = 0; other < ranks_.size(); ++other) {
             if (other == own) continue;
-            for (const PixelRange& range : mine.shares_of(own))
-                for (const PixelRange& wanted : others.shares_of(other)) {
-                    const PixelRange part = common_part(range, wanted);
+            for (const IndexRange& range : mine.shares_of(own))
+                for (const IndexRange& wanted : others.shares_of(other)) {
+                    const IndexRange part = common_part(range, wanted);
                     if (part.empty()) continue;
                     pixels.resize(part.count());
                     fn(other, part);
                 }
         }
     };
-    each_part(from, to, [&](int other, PixelRange part) {
+    each_part(from, to, [&](int other, IndexRange part) {
         locally([&] { backend_->read_pixels(slot, part.begin, pixels); });
         ranks_.send(other, std::as_bytes(std::span(pixels)));
     });
-    each_part(to, from, [&](int other, PixelRange part) {
+    each_part(to, from, [&](int other, IndexRange part) {
         ranks_.receive(other, std::as_writable_bytes(std::span(pixels)));
         locally([&] { backend_->write_pixels(slot, part.begin, pixels); });
     });
@@ -101,7 +101,7 @@ void RankWork::mark_borders(const PassRequest& request, Film& film, Payload& pay
     }
     ranks_.broadcast(std::as_writable_bytes(std::span(marks)));
     if (ranks_.rank() == 0) return;
-    for (const PixelRange& range : film.shares.shares_of(ranks_.rank())) {
+    for (const IndexRange& range : film.shares.shares_of(ranks_.rank())) {
         pixels.resize(range.count());
         locally([&] {
             backend_->read_pixels(request.slot, range.begin, pixels);
@@ -118,13 +118,13 @@ void RankWork::share_emission(FilmSlot slot, const Film& film) {
     std::vector<FilmPixel> pixels(film.pixels);
     locally([&] { backend_->read_pixels(slot, 0, pixels); });
     std::vector<EmissionSeen> own;
-    for (const PixelRange& range : film.shares.shares_of(ranks_.rank()))
+    for (const IndexRange& range : film.shares.shares_of(ranks_.rank()))
         for (std::uint32_t i = range.begin; i < range.end; ++i) own.push_back(pixels[i].emission);
     const std::vector<Bytes> all = ranks_.exchange(std::as_bytes(std::span(own)));
     for (int rank = 0; rank < ranks_.size(); ++rank) {
         if (rank == ranks_.rank()) continue;
         const std::byte* next = all[static_cast<std::size_t>(rank)].data();
-        for (const PixelRange& range : film.shares.shares_of(rank))
+        for (const IndexRange& range : film.shares.shares_of(rank))
             for (std::uint32_t i = range.begin; i < range.end; ++i, next += sizeof(EmissionSeen))
                 std::memcpy(&pixels[i].emission, next, sizeof(EmissionSeen));
     }

@@ -151,7 +151,7 @@ void RankWork::reset_film(const RankCommand& command) {
 void RankWork::run_pass(const PassRequest& request, Payload& payload) {
     Film& film = films_[static_cast<std::size_t>(request.slot.index())];
     const std::uint32_t count = request.subset.count(film.pixels);
-    PixelRange numbers{request.first_pixel, std::min(request.end_pixel, count)};
+    IndexRange numbers{request.first_pixel, std::min(request.end_pixel, count)};
     film.shares.cover(numbers.end == count ? film.pixels : numbers.end * request.subset.step);
     film.seconds.resize(film.shares.blocks());
     film.is_gathered = false;
@@ -166,7 +166,7 @@ void RankWork::run_pass(const PassRequest& request, Payload& payload) {
     }
     bool is_first = true;
     for (std::size_t block = 0; block < film.shares.blocks(); ++block) {
-        const PixelRange part =
+        const IndexRange part =
             common_part(numbers, numbers_within(request.subset, film.shares.block(block), film.pixels));
         if (part.empty()) continue;
         if (!is_first && !goes_on(payload.stop)) break;
@@ -175,10 +175,10 @@ void RankWork::run_pass(const PassRequest& request, Payload& payload) {
     }
 }
 
-void RankWork::run_block(const PassRequest& request, Film& film, std::size_t block, PixelRange numbers,
+void RankWork::run_block(const PassRequest& request, Film& film, std::size_t block, IndexRange numbers,
                          Payload& payload) {
-    const PixelRange own = film.shares.share(block, ranks_.rank());
-    const PixelRange part = common_part(numbers, numbers_within(request.subset, own, film.pixels));
+    const IndexRange own = film.shares.share(block, ranks_.rank());
+    const IndexRange part = common_part(numbers, numbers_within(request.subset, own, film.pixels));
     if (part.empty()) return;
     const Stopwatch watch;
     PassRequest local = request;
@@ -193,14 +193,14 @@ void RankWork::run_block(const PassRequest& request, Film& film, std::size_t blo
 /// Probes are numbered through all volumes and cost much the same everywhere.
 void RankWork::precompute(const PrecomputeRequest& request, Payload& payload) {
     Shares shares = no_shares();
-    const PixelRange wanted{request.first_probe, std::min(request.end_probe, probes_)};
+    const IndexRange wanted{request.first_probe, std::min(request.end_probe, probes_)};
     shares.cover(wanted.end);
     bool is_first = true;
     for (std::size_t block = 0; block < shares.blocks(); ++block) {
         if (common_part(wanted, shares.block(block)).empty()) continue;
         if (!is_first && !goes_on(payload.stop)) break;
         is_first = false;
-        const PixelRange part = common_part(wanted, shares.share(block, ranks_.rank()));
+        const IndexRange part = common_part(wanted, shares.share(block, ranks_.rank()));
         if (part.empty()) continue;
         PrecomputeRequest local = request;
         local.first_probe = part.begin;

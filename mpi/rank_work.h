@@ -93,7 +93,7 @@ private:
     void write_pixels(const RankCommand& command, Payload& payload);
     void gather_film(FilmSlot slot);
     void run_pass(const PassRequest& request, Payload& payload);
-    void run_block(const PassRequest& request, Film& film, std::size_t block, PixelRange numbers, Payload& payload);
+    void run_block(const PassRequest& request, Film& film, std::size_t block, IndexRange numbers, Payload& payload);
     void precompute(const PrecomputeRequest& request, Payload& payload);
 
     bool goes_on(const StopFlag* stop);

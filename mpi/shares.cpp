@@ -5,7 +5,7 @@
 
 namespace pl {
 
-PixelRange numbers_within(const PixelSubset& subset, PixelRange pixels, std::uint32_t film_pixels) {
+IndexRange numbers_within(const PixelSubset& subset, IndexRange pixels, std::uint32_t film_pixels) {
     const std::uint32_t count = subset.count(film_pixels);
     // Pixels ascend with their numbers, one of every `step`.
     const auto first_from = [&](std::uint32_t pixel) {
@@ -29,10 +29,10 @@ void Shares::cover(std::uint32_t end) {
     }
 }
 
-std::vector<PixelRange> Shares::shares_of(int rank) const {
-    std::vector<PixelRange> ranges;
+std::vector<IndexRange> Shares::shares_of(int rank) const {
+    std::vector<IndexRange> ranges;
     for (std::size_t i = 0; i < blocks(); ++i)
-        if (const PixelRange range = share(i, rank); !range.empty()) ranges.push_back(range);
+        if (const IndexRange range = share(i, rank); !range.empty()) ranges.push_back(range);
     return ranges;
 }
 

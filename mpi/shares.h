@@ -5,27 +5,19 @@
 #include <span>
 #include <vector>
 
+#include "core/base/parallel.h"
 #include "core/kernel/film/sample_variance.h"
 
 namespace pl {
 
-struct PixelRange {
-    std::uint32_t begin = 0;
-    std::uint32_t end = 0;
-
-    std::uint32_t count() const { return end - begin; }
-    bool empty() const { return begin >= end; }
-    friend bool operator==(const PixelRange&, const PixelRange&) = default;
-};
-
-inline PixelRange common_part(PixelRange a, PixelRange b) {
+inline IndexRange common_part(IndexRange a, IndexRange b) {
     const std::uint32_t begin = a.begin > b.begin ? a.begin : b.begin;
     const std::uint32_t end = a.end < b.end ? a.end : b.end;
     return {begin, end > begin ? end : begin};
 }
 
 /// The numbers of a subset's pixels that lie in a range of the film.
-PixelRange numbers_within(const PixelSubset& subset, PixelRange pixels, std::uint32_t film_pixels);
+IndexRange numbers_within(const PixelSubset& subset, IndexRange pixels, std::uint32_t film_pixels);
 
 /// A film as blocks of pixels, each cut into one contiguous share per rank. A pass ends or is stopped between blocks, so the pixels
 /// rendered are a prefix of the film whatever the number of ranks.
@@ -43,12 +35,12 @@ public:
     void cover(std::uint32_t end);
 
     std::size_t blocks() const { return cuts_.size() / (ranks_ + 1); }
-    PixelRange block(std::size_t block) const { return {cut(block, 0), cut(block, ranks_)}; }
-    PixelRange share(std::size_t block, int rank) const {
+    IndexRange block(std::size_t block) const { return {cut(block, 0), cut(block, ranks_)}; }
+    IndexRange share(std::size_t block, int rank) const {
         return {cut(block, static_cast<std::uint32_t>(rank)), cut(block, static_cast<std::uint32_t>(rank) + 1)};
     }
     /// All pixels of a rank, in ascending order.
-    std::vector<PixelRange> shares_of(int rank) const;
+    std::vector<IndexRange> shares_of(int rank) const;
 
     /// New cuts of every block, by which shares that take time in proportion to the last ones take the same time. `seconds`:
     /// [block][rank]. Blocks that differ by less than a twentieth, or whose time is too short to tell, stay.

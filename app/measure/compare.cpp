@@ -90,7 +90,7 @@ std::optional<double> flip_resolution(const Options& options) {
 }
 
 /// `resolution` is for FLIP, in pixels per degree.
-MeasuredError compare(const Picture& picture, const ReferenceHalves& halves, Pixels mean,
+MeasuredError compare(const Picture& picture, const PictureHalves& halves, Pixels mean,
                       std::optional<double> resolution) {
     MeasuredError result{.metrics = measure_error(picture.image.pixels, halves), .flip = {}};
     if (resolution) result.flip = mean_of(flip_map(picture.image.pixels, mean, picture.image.width, *resolution));

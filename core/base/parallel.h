@@ -64,7 +64,9 @@ struct IndexRange {
     std::uint32_t begin = 0;
     std::uint32_t end = 0;
 
-    bool empty() const { return begin == end; }
+    std::uint32_t count() const { return end - begin; }
+    bool empty() const { return begin >= end; }
+    friend bool operator==(const IndexRange&, const IndexRange&) = default;
 };
 
 /// Distributes the indices [first, end) in ascending chunks to any number of threads. No chunk is claimed after

@@ -41,7 +41,7 @@ struct Reference {
     PictureContent content;
     std::array<ReferenceHalf, 2> halves;
 
-    ReferenceHalves pixels() const { return {halves[0].image.pixels, halves[1].image.pixels}; }
+    PictureHalves pixels() const { return {halves[0].image.pixels, halves[1].image.pixels}; }
     LinearImage mean() const;  ///< of both halves, weighted by their samples
     Noise noise() const;       ///< of the mean of both halves, weighted equally
     bool has_samples() const { return halves[0].spp > 0 && halves[1].spp > 0; }

@@ -125,14 +125,14 @@ private:
         emission.contribution = alone.radiance;
         if (samples_lights(before))
             emission.light_pdf_sa =
-                light_pdf_sa<kAll>(scene_, before.ray.origin, surface, before.ray.direction, before.lights.learned());
+                light_pdf_sa<kAll>(scene_, before.ray.origin, surface, before.ray.direction, learned_lights(before));
         return emission;
     }
 
     EmissionRecord environment_emission(const State& before) const {
         State alone = before;
         alone.radiance = Vec3f{0.0f};
-        EmissionRecord emission{.radiance = add_environment(scene_, context_.settings, alone).radiance,
+        EmissionRecord emission{.radiance = add_environment(scene_, context_.settings, alone).emitted,
                                 .contribution = alone.radiance};
         if (scene_.far_lights.empty() || !samples_lights(before)) return emission;
         emission.light_pdf_sa = far_light_pdf_sa(scene_, before.ray.direction);

@@ -28,7 +28,7 @@ Vec3f picture_up(Vec3f normal, const CameraDescription& camera) {
 DiscFrame::DiscFrame(Vec3f normal, const CameraDescription& camera) {
     Vec3f up = along_surface(glm::normalize(camera.up), normal);
     if (!has_length(up, kLeastSine)) {
-        up_means_ = DiscUp::Picture;
+        up_is_scene_ = false;
         up = picture_up(normal, camera);
     }
     const Vec3f y = glm::normalize(up);

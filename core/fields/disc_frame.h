@@ -13,12 +13,6 @@ inline Vec3f lift_to_hemisphere(Vec2f disk) {
     return {disk.x, disk.y, safe_sqrt(1.0f - disk.x * disk.x - disk.y * disk.y)};
 }
 
-/// The meaning of up on a disc.
-enum class DiscUp {
-    Scene,    ///< the scene's up
-    Picture,  ///< up in the picture: on floors and ceilings, where the scene's up is the center or behind it
-};
-
 /// A disc is the hemisphere seen against its normal, as from a camera in front of the surface, with directions projected onto the
 /// surface: equal areas are equal shares of irradiance. Its points (x right, y up) are in the unit disk. Cells lie in the frame
 /// make_frame(normal), which is turned against the disc's.
@@ -26,7 +20,9 @@ class DiscFrame {
 public:
     DiscFrame(Vec3f normal, const CameraDescription& camera);
 
-    DiscUp up_means() const { return up_means_; }
+    /// Whether up on the disc is the scene's up; else it is up in the picture: on floors and ceilings, where the scene's up is the center or
+    /// behind it.
+    bool up_is_scene() const { return up_is_scene_; }
     Vec3f right() const { return frame_.x; }
     Vec3f up() const { return frame_.y; }
 
@@ -42,7 +38,7 @@ public:
 private:
     Frame frame_;
     Vec2f turn_{1.0f, 0.0f};  ///< cosine and sine of the angle from the cells' frame to the disc's
-    DiscUp up_means_ = DiscUp::Scene;
+    bool up_is_scene_ = true;
 };
 
 }  // namespace pl

@@ -166,9 +166,9 @@ bool NearestSets::finds_nearest(const Neighborhood& known, const Ball& ball, Vec
     return covers(known, ball);
 }
 
-NearestSets::Only NearestSets::find_only(const Ball& ball, Vec3f normal) {
+std::optional<std::uint32_t> NearestSets::find_only(const Ball& ball, Vec3f normal) {
     const std::size_t cell = NormalTrees::cell_of(normal);
-    if (trees_.tree_of(cell).nodes.empty()) return {.is_known = true};
+    if (trees_.tree_of(cell).nodes.empty()) return VolumePlace::kNone;
     const Neighborhood& known = known_[cell];
     if (!finds_nearest(known, ball, normal)) return {};
     const KdNode& only = trees_.node_at(static_cast<std::uint32_t>(nearest_.volume));
@@ -179,7 +179,7 @@ NearestSets::Only NearestSets::find_only(const Ball& ball, Vec3f normal) {
         if (node.volume != only.volume && squared_distance(ball.center, node.position) <= limit2 &&
             normals_agree(normal, node.normal) && can_be_nearest_in(ball, node, only))
             return {};
-    return {true, trees_.node_of(only.volume)};
+    return trees_.node_of(only.volume);
 }
 
 /// Whether `node` may be as near as `other` to some point of the ball: the difference of squared distances is linear in the point.

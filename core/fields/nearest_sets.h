@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include <glm/glm.hpp>
@@ -91,13 +92,9 @@ public:
     /// The set of all volumes that the search from some point of the region, with this normal, can return. The
     /// polygon must not be empty. Sets are exact up to a margin of a few roundoffs of the distances.
     Answer find(const FlatRegion& region, Vec3f normal);
-    /// The only volume of that set for any region in the ball.
-    struct Only {
-        bool is_known = false;
-        std::uint32_t node = VolumePlace::kNone;  ///< kNone: no volume has an agreeing normal
-    };
-    /// Known without a search, or not.
-    Only find_only(const Ball& ball, Vec3f normal);
+    /// The node of the only volume of that set for any region in the ball, VolumePlace::kNone if no volume has an agreeing normal. Empty
+    /// if there are several, or a search would have to tell.
+    std::optional<std::uint32_t> find_only(const Ball& ball, Vec3f normal);
 
     /// Drops the neighborhoods of earlier searches, at the start of each chunk of work: the searches that reach the effort
     /// limit then do not depend on the distribution of chunks over threads.

@@ -141,9 +141,9 @@ private:
         for (const bool front : {true, false}) {
             const std::uint32_t side = front ? primitive : primitive + scene_.direct_triangles();
             normal_ = (front ? 1.0f : -1.0f) * scene_.planes[primitive].normal;
-            const NearestSets::Only only = sets_.find_only(ball, normal_);
-            places_[side] = only.is_known ? VolumePlace{VolumePlace::Kind::Node, only.node}
-                                          : place_of(side, FramedTriangle(corners));
+            const std::optional<std::uint32_t> only = sets_.find_only(ball, normal_);
+            places_[side] =
+                only ? VolumePlace{VolumePlace::Kind::Node, *only} : place_of(side, FramedTriangle(corners));
             const VolumePlace::Kind kind = places_[side].kind();
             if (kind == VolumePlace::Kind::Cell || kind == VolumePlace::Kind::Grid) pieces_.sides.push_back(side);
         }

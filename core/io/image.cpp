@@ -56,8 +56,6 @@ LinearImage read_exr(const std::filesystem::path& path, ImageMetadata* metadata)
     return decode_exr(read_file(path), {.path = path, .metadata = metadata});
 }
 
-LinearImage read_pfm(const std::filesystem::path& path) { return decode_pfm(read_file(path), {.path = path}); }
-
 std::string text_of(const ImageMetadata& metadata, const std::string& name) {
     for (const auto& [key, value] : metadata) {
         if (key == name) {

@@ -149,9 +149,6 @@ LinearImage read_linear(const std::filesystem::path& path, ImageMetadata* metada
 /// decode_exr() of a file of this program.
 LinearImage read_exr(const std::filesystem::path& path, ImageMetadata* metadata = nullptr);
 
-/// decode_pfm() of a file.
-LinearImage read_pfm(const std::filesystem::path& path);
-
 ByteImage read_png8(const std::filesystem::path& path, ImageMetadata* metadata = nullptr);
 
 }  // namespace pl

@@ -32,7 +32,7 @@ struct PartSums {
 /// Adds the pixels of one row of blocks after the other.
 class PartsTaker {
 public:
-    PartsTaker(const PictureHalves& picture, const ReferenceHalves& reference, std::size_t width)
+    PartsTaker(const PictureHalves& picture, const PictureHalves& reference, std::size_t width)
         : picture_(picture), reference_(reference), shares_(picture), width_(width),
           columns_((width + kBlockSide - 1) / kBlockSide), rows_(picture.first.size() / width),
           error_(columns_ * ((rows_ + kBlockSide - 1) / kBlockSide)), squared_bias_(error_), difference_(error_) {}
@@ -88,7 +88,7 @@ private:
     }
 
     const PictureHalves& picture_;
-    const ReferenceHalves& reference_;
+    const PictureHalves& reference_;
     HalfShares shares_;
     std::size_t width_;
     std::size_t columns_;
@@ -123,7 +123,7 @@ PictureHalves halves_of(const FilmHalves& halves) {
             .second_weight = static_cast<double>(halves.weights[1])};
 }
 
-ErrorParts take_apart(const PictureHalves& picture, const ReferenceHalves& reference, int width, int threads) {
+ErrorParts take_apart(const PictureHalves& picture, const PictureHalves& reference, int width, int threads) {
     require_same_sizes({picture.first, picture.second, reference.first, reference.second});
     require_full_rows(picture.first.size(), width);
     return PartsTaker(picture, reference, static_cast<std::size_t>(width)).take(threads);

@@ -10,15 +10,6 @@
 
 namespace pl {
 
-/// A picture as two disjoint halves of its samples, each an unbiased estimate of the same mean. Passes of learning
-/// methods may be split, too: each pass is unbiased given the passes before it, so the halves are uncorrelated.
-struct PictureHalves {
-    Pixels first;
-    Pixels second;
-    double first_weight = 1.0;  ///< of the samples in the first half, in any unit; both weights are positive
-    double second_weight = 1.0;
-};
-
 /// The halves of a film reading, which must both have samples.
 PictureHalves halves_of(const FilmHalves& halves);
 
@@ -68,7 +59,7 @@ struct ErrorParts {
 /// Standard errors are those of means over blocks of kBlockSide x kBlockSide pixels, because neighboring pixels share
 /// learned radiance. For one run they are too small where many pixels share a volume: the true ones need several
 /// seeds. Throws Error(Input) if sizes differ or `width` does not divide them.
-ErrorParts take_apart(const PictureHalves& picture, const ReferenceHalves& reference, int width, int threads = 1);
+ErrorParts take_apart(const PictureHalves& picture, const PictureHalves& reference, int width, int threads = 1);
 inline constexpr int kBlockSide = 16;
 
 /// Pixelwise mean of two pictures of `first_weight` and `second_weight` samples each.

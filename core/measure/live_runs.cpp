@@ -194,7 +194,7 @@ bool LiveRuns::has_reference(std::uint64_t picture) const {
     return reference_ != nullptr && reference_->picture == picture;
 }
 
-ReferenceHalves LiveRuns::reference_halves() const { return {reference_->first, reference_->second}; }
+PictureHalves LiveRuns::reference_halves() const { return {reference_->first, reference_->second}; }
 
 std::optional<std::size_t> LiveRuns::find(std::uint64_t number) const {
     for (std::size_t i = 0; i < runs_.size(); ++i)

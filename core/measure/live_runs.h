@@ -66,7 +66,7 @@ private:
     std::optional<LivePoint> measure(const Session& session, FilmSlot slot, const FilmOrigin& origin,
                                      std::uint64_t picture) const;
     bool has_reference(std::uint64_t picture) const;
-    ReferenceHalves reference_halves() const;
+    PictureHalves reference_halves() const;
     std::optional<std::size_t> find(std::uint64_t number) const;
     template <class Change>
     void change(std::size_t index, Change&& change);

@@ -153,7 +153,7 @@ Metrics measure_error(Pixels picture, Pixels reference, int threads) {
     return measure_error(picture, {reference, reference}, threads);
 }
 
-Metrics measure_error(Pixels picture, const ReferenceHalves& reference, int threads) {
+Metrics measure_error(Pixels picture, const PictureHalves& reference, int threads) {
     require_same_size(picture, reference.first);
     require_same_size(picture, reference.second);
     const auto add = [&](ErrorSums& sums, IndexRange range) {

@@ -34,19 +34,22 @@ struct Metrics {
 
 using Pixels = std::span<const Vec3f>;
 
-/// A converged picture in two independent halves, whose noise therefore drops out of (x-r1)(x-r2).
-struct ReferenceHalves {
+/// A picture as two disjoint halves of its samples, each an unbiased estimate of the same mean. Passes of learning
+/// methods may be split, too: each pass is unbiased given the passes before it, so the halves are uncorrelated.
+struct PictureHalves {
     Pixels first;
     Pixels second;
+    double first_weight = 1.0;  ///< of the samples in the first half, in any unit; both weights are positive
+    double second_weight = 1.0;
 };
 
 /// Throws Error(Input) if the numbers of pixels differ. The number of threads does not change the result.
 Metrics measure_error(Pixels picture, Pixels reference, int threads = 1);
 
-/// The same against two halves: squares are products (x-r1)(x-r2), unbiased by the noise of the reference and
-/// possibly negative near zero, which is not corrected; rmse is then 0 and psnr infinite. The other metrics use the
-/// mean of the halves.
-Metrics measure_error(Pixels picture, const ReferenceHalves& reference, int threads = 1);
+/// The same against the halves of a converged picture, equally weighted: squares are products (x-r1)(x-r2), unbiased by the noise of the
+/// reference and possibly negative near zero, which is not corrected; rmse is then 0 and psnr infinite. The other metrics use the mean of
+/// the halves.
+Metrics measure_error(Pixels picture, const PictureHalves& reference, int threads = 1);
 
 inline double luminance_of(const Vec3d& radiance) {
     return 0.2126 * radiance.x + 0.7152 * radiance.y + 0.0722 * radiance.z;

@@ -9,7 +9,7 @@ namespace {
 
 class RunRecorder {
 public:
-    RunRecorder(const RunLimits& limits, const ReferenceHalves& reference, const RunObserver& observer)
+    RunRecorder(const RunLimits& limits, const PictureHalves& reference, const RunObserver& observer)
         : limits_(limits), reference_(reference), observer_(observer), budget_(limits.measure_share) {}
 
     /// Passes until the next one after which the film may be measured.
@@ -60,7 +60,7 @@ private:
     }
 
     RunLimits limits_;
-    ReferenceHalves reference_;
+    PictureHalves reference_;
     const RunObserver& observer_;
     RunSeries series_;
     MeasureBudget budget_;
@@ -98,7 +98,7 @@ std::uint32_t next_ladder_step(std::uint32_t spp) {
 }
 
 std::optional<RunSeries> record_run(Session& session, FilmSlot slot, const RunLimits& limits,
-                                    const ReferenceHalves& reference, const StopFlag* stop,
+                                    const PictureHalves& reference, const StopFlag* stop,
                                     const RunObserver& observer) {
     RunRecorder recorder(limits, reference, observer);
     for (;;) {

@@ -65,7 +65,7 @@ struct RunObserver {
 /// Renders in a fresh session until a limit is reached. Empty if `stop` is raised before: half a run measures
 /// nothing. Throws Error(Input) unless the reference has the size of the session.
 std::optional<RunSeries> record_run(Session& session, FilmSlot slot, const RunLimits& limits,
-                                    const ReferenceHalves& reference, const StopFlag* stop = nullptr,
+                                    const PictureHalves& reference, const StopFlag* stop = nullptr,
                                     const RunObserver& observer = {});
 
 }  // namespace pl

@@ -18,8 +18,6 @@ public:
     /// Whether the point is inside of a closed surface, by the parity of the intersections of a ray.
     bool contains(glm::vec3 point) const;
 
-    std::size_t surface_count() const { return surfaces_.size(); }
-
 private:
     struct Face {
         glm::dvec3 a;

@@ -103,21 +103,18 @@ struct Lamp {
 std::uint32_t number_of(const LightItem& item) { return item.light; }
 std::uint32_t number_of(const Lamp& lamp) { return lamp.lights.front().light; }
 
-/// Maps centers of lights or lamps along one axis to bins; monotone, so that equal centers share a bin.
-struct LightBinning {
-    int axis;
-    double low;
-    double scale;
-
-    int operator()(const GatheredBounds& bounds) const {
-        return std::min(static_cast<int>((bounds.center()[axis] - low) * scale), kBins - 1);
-    }
-};
-
+/// Lights or lamps in bins by their centers along one axis, split behind one of the bins.
 struct LightSplit {
-    LightBinning binning{};
+    int axis = 0;
+    double low = 0.0;
+    double scale = 0.0;
     int bin = -1;  ///< last bin of the first child; -1: none found
     double cost = std::numeric_limits<double>::infinity();
+
+    /// Monotone in the center, so that equal centers share a bin.
+    int bin_of(const GatheredBounds& bounds) const {
+        return std::min(static_cast<int>((bounds.center()[axis] - low) * scale), kBins - 1);
+    }
 };
 
 /// The upper nodes hold whole lamps: a dome around all others would hide them in every node that holds parts of it and of them, since
@@ -157,7 +154,7 @@ private:
         if (split.bin >= 0)
             return static_cast<std::size_t>(
                 std::partition(items.begin(), items.end(),
-                               [&](const Item& item) { return split.binning(item.bounds) <= split.bin; }) -
+                               [&](const Item& item) { return split.bin_of(item.bounds) <= split.bin; }) -
                 items.begin());
         const Vec3d size = bounds.high - bounds.low;
         const int axis = size.x >= size.y && size.x >= size.z ? 0 : (size.y >= size.z ? 1 : 2);
@@ -182,15 +179,15 @@ private:
         LightSplit best;
         for (int axis = 0; axis < 3; ++axis) {
             if (!(high[axis] > low[axis])) continue;
-            best_on_axis({axis, low[axis], kBins / (high[axis] - low[axis])}, items, best);
+            best_on_axis({.axis = axis, .low = low[axis], .scale = kBins / (high[axis] - low[axis])}, items, best);
         }
         return best;
     }
 
     template <class Item>
-    static void best_on_axis(const LightBinning& binning, std::span<const Item> items, LightSplit& best) {
+    static void best_on_axis(LightSplit split, std::span<const Item> items, LightSplit& best) {
         std::array<GatheredBounds, kBins> bins;
-        for (const Item& item : items) bins[static_cast<std::size_t>(binning(item.bounds))].add(item.bounds);
+        for (const Item& item : items) bins[static_cast<std::size_t>(split.bin_of(item.bounds))].add(item.bounds);
         std::array<double, kBins> above{};  // cost of all bins above
         GatheredBounds sum;
         for (std::size_t i = kBins - 1; i > 0; --i) {
@@ -198,11 +195,11 @@ private:
             above[i - 1] = sum.cost();
         }
         sum = {};
-        for (int i = 0; i + 1 < kBins; ++i) {
-            sum.add(bins[static_cast<std::size_t>(i)]);
-            const double cost = sum.cost() + above[static_cast<std::size_t>(i)];
+        for (split.bin = 0; split.bin + 1 < kBins; ++split.bin) {
+            sum.add(bins[static_cast<std::size_t>(split.bin)]);
+            split.cost = sum.cost() + above[static_cast<std::size_t>(split.bin)];
             // The outermost bins are never empty, so neither child is.
-            if (cost < best.cost) best = {binning, i, cost};
+            if (split.cost < best.cost) best = split;
         }
     }
 

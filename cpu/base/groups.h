@@ -229,7 +229,7 @@ struct alignas(64) PathGroup {
     VectorGroup throughput, radiance;
     float direction_pdf_sa[kGroupSize] = {}, survival[kGroupSize] = {};
     std::uint32_t vertices[kGroupSize] = {};
-    std::uint32_t specular[kGroupSize] = {};  ///< SpecularCount::vertices
+    std::uint32_t specular[kGroupSize] = {};  ///< PathState::specular_vertices
     VectorGroup weight;                       ///< f cos / pdf at the last vertex
     float roulette_weight[kGroupSize] = {};   ///< 1 / survival probability of the roulette there
 
@@ -314,11 +314,6 @@ struct BlockRows {
     std::uint32_t groups;
 };
 
-/// Contributions of light samples to 16 paths.
-struct alignas(64) LitGroup {
-    VectorGroup contribution;
-};
-
 /// A field of tables as plain pointers, of at least one volume.
 struct VolumeRows {
     const KdNode* nodes;
@@ -336,7 +331,7 @@ struct alignas(64) ValueGroup {
     float value[kGroupSize] = {}, direct[kGroupSize] = {};  ///< value_at() and direct_at() of the field
 };
 
-/// The method's part of 16 paths: members as in OpenSample, and GuidedExpectation::first.
+/// The method's part of 16 paths: members as in OpenSample, and Guided::Expectation.
 struct alignas(64) OpenGroup {
     std::int32_t volume[kGroupSize], cell[kGroupSize] = {};
     float bsdf_ratio[kGroupSize] = {};

@@ -2,8 +2,6 @@
 
 #include <vector>
 
-#include "cpu/base/lane_names.h"
-
 namespace pl {
 namespace {
 

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <span>
+#include <string_view>
+#include <vector>
 
 #include "core/kernel/guiding/vertex_network.h"
 #include "cpu/base/groups.h"
@@ -87,9 +89,9 @@ struct LaneKernels {
     /// rays then. `lit`: comes in as the paths that have light samples, and leaves as those that have shadow rays, whose contributions
     /// are kept.
     std::uint32_t (*pack_shadow_rays)(const BlockRows& block, const LightSampleGroup* samples, BlockBits& lit,
-                                      LitGroup* kept, RayGroup* rays, std::uint32_t count);
+                                      VectorGroup* kept, RayGroup* rays, std::uint32_t count);
     /// Adds the contributions of light samples to the paths in `lit`.
-    void (*connect_paths)(const LitGroup* lights, const BlockBits& lit, PathGroup* paths, std::uint32_t groups);
+    void (*connect_paths)(const VectorGroup* lights, const BlockBits& lit, PathGroup* paths, std::uint32_t groups);
     /// The volumes of a block's vertices: what directions are sampled by, and their values. `rows`: served are the vertices that may have
     /// a volume. Returns those that have one, and marks those whose volume has no known node: their sites and normals are arbitrary.
     BlockBits (*look_up_volumes)(const VolumeRows& field, const LearningRows& rows, BlockBits& unknown);
@@ -122,5 +124,10 @@ extern const LaneKernels kLaneKernelsAvx512;  ///< only in builds with PL_LANE_C
 std::span<const LaneKernels> usable_lane_kernels();
 
 inline const LaneKernels& best_lane_kernels() { return usable_lane_kernels().back(); }
+
+/// Instruction sets that this build has kernels for, narrowest vectors first.
+std::vector<std::string_view> compiled_lane_names();
+/// The instruction set whose kernels run on this machine.
+std::string_view used_lane_name();
 
 }  // namespace pl

@@ -9,7 +9,7 @@ namespace pl {
 namespace {
 
 using LaneRaySpace = RaySpace<LaneFloat, LaneInt>;
-using LaneCorner = RayCorner<LaneFloat>;
+using LaneCorner = RayVector<LaneFloat>;
 using LaneEdges = EdgeFunctions<LaneFloat>;
 
 /// The rays of a group from lane `first`, transformed for the watertight test.
@@ -105,7 +105,7 @@ private:
     LaneCorner corners_[kMaxDensePositions];
 };
 
-PL_INLINE void closest_of_groups(const DenseView& scene, const RayGroup* rays, HitGroup* hits, std::uint32_t groups) {
+void find_closest(const DenseView& scene, const RayGroup* rays, HitGroup* hits, std::uint32_t groups) {
     for (std::uint32_t group = 0; group < groups; ++group)
         for (std::uint32_t first = 0; first < kGroupSize; first += kLaneWidth) {
             const DenseLanes lanes(scene, rays[group], first);
@@ -116,8 +116,7 @@ PL_INLINE void closest_of_groups(const DenseView& scene, const RayGroup* rays, H
         }
 }
 
-PL_INLINE void occlusion_of_groups(const DenseView& scene, const RayGroup* rays, OcclusionMask* masks,
-                                   std::uint32_t groups) {
+void find_occluded(const DenseView& scene, const RayGroup* rays, OcclusionMask* masks, std::uint32_t groups) {
     for (std::uint32_t group = 0; group < groups; ++group) {
         std::uint32_t bits = 0;
         for (std::uint32_t first = 0; first < kGroupSize; first += kLaneWidth)

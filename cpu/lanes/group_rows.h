@@ -92,7 +92,6 @@ class GroupRows {
 public:
     explicit PL_INLINE GroupRows(std::uint32_t first) : first_(first) {}
 
-protected:
     PL_INLINE std::uint32_t first() const { return first_; }
     /// The lanes whose bit is set: bit i stands for lane i of the group.
     PL_INLINE LaneInt lanes_of(std::uint32_t bits) const {

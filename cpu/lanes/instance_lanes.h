@@ -141,8 +141,7 @@ PL_INLINE void for_rays(const WideInstances& scene, const RayGroup* rays, std::u
     }
 }
 
-PL_INLINE void closest_instances(const WideInstances& scene, const RayGroup* rays, HitGroup* hits,
-                                 std::uint32_t count) {
+void find_closest_instances(const WideInstances& scene, const RayGroup* rays, HitGroup* hits, std::uint32_t count) {
     for_rays<false>(scene, rays, count, [&](std::uint32_t group, std::uint32_t lane, InstanceTraversal<false>& rest) {
         HitGroup& to = hits[group];
         Hit hit{to.t[lane], to.primitive[lane], to.b1[lane], to.b2[lane]};
@@ -150,8 +149,8 @@ PL_INLINE void closest_instances(const WideInstances& scene, const RayGroup* ray
     });
 }
 
-PL_INLINE void occluding_instances(const WideInstances& scene, const RayGroup* rays, OcclusionMask* masks,
-                                   std::uint32_t count) {
+void find_occluding_instances(const WideInstances& scene, const RayGroup* rays, OcclusionMask* masks,
+                              std::uint32_t count) {
     for_rays<true>(scene, rays, count, [&](std::uint32_t group, std::uint32_t lane, InstanceTraversal<true>& rest) {
         if (((masks[group] >> lane) & 1u) != 0) return;
         Hit hit{.t = rays[group].t_max[lane]};

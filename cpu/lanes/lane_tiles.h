@@ -13,37 +13,33 @@ struct LaneTile {
     LaneFloat rows[kLaneWidth];
 };
 
-/// Lane i of the result is lane Pick::lane(i) of `a` followed by `b`.
-template <class Pick, std::size_t... kLanes>
+/// Lane i of the result is lane kLaneOf(i) of `a` followed by `b`.
+template <int (*kLaneOf)(int), std::size_t... kLanes>
 PL_INLINE LaneFloat pick_lanes(const LaneFloat& a, const LaneFloat& b, std::index_sequence<kLanes...>) {
-    return __builtin_shufflevector(a, b, Pick::lane(kLanes)...);
+    return __builtin_shufflevector(a, b, kLaneOf(static_cast<int>(kLanes))...);
 }
-template <class Pick>
+template <int (*kLaneOf)(int)>
 PL_INLINE LaneFloat pick_lanes(const LaneFloat& a, const LaneFloat& b) {
-    return pick_lanes<Pick>(a, b, std::make_index_sequence<kLaneWidth>());
+    return pick_lanes<kLaneOf>(a, b, std::make_index_sequence<kLaneWidth>());
 }
 
 /// In each block of four lanes: the first (kUpper = 0) or last two of `a` and `b` in turns.
 template <int kUpper>
-struct Interleave {
-    static constexpr int lane(int i) {
-        return (i & ~3) + 2 * kUpper + ((i & 3) >> 1) + (i & 1) * static_cast<int>(kLaneWidth);
-    }
-};
+constexpr int interleaved(int i) {
+    return (i & ~3) + 2 * kUpper + ((i & 3) >> 1) + (i & 1) * static_cast<int>(kLaneWidth);
+}
 /// In each block of 2 * kSize lanes: the first (kUpper = 0) or last kSize of `a`, then those of `b`.
 template <int kSize, int kUpper>
-struct Join {
-    static constexpr int lane(int i) {
-        const int in_block = i & (2 * kSize - 1);
-        const int of_b = in_block >= kSize ? static_cast<int>(kLaneWidth) - kSize : 0;
-        return i + of_b + kUpper * kSize;
-    }
-};
+constexpr int joined(int i) {
+    const int in_block = i & (2 * kSize - 1);
+    const int of_b = in_block >= kSize ? static_cast<int>(kLaneWidth) - kSize : 0;
+    return i + of_b + kUpper * kSize;
+}
 
 template <int kSize>
 PL_INLINE void exchange(LaneFloat& a, LaneFloat& b) {
-    const LaneFloat lower = pick_lanes<Join<kSize, 0>>(a, b);
-    b = pick_lanes<Join<kSize, 1>>(a, b);
+    const LaneFloat lower = pick_lanes<joined<kSize, 0>>(a, b);
+    b = pick_lanes<joined<kSize, 1>>(a, b);
     a = lower;
 }
 
@@ -62,30 +58,26 @@ PL_INLINE void transpose(LaneTile& tile) {
 #pragma GCC unroll 4
     for (std::uint32_t i = 0; i < kLaneWidth; i += 4) {
         LaneFloat* rows = tile.rows + i;
-        const LaneFloat a = pick_lanes<Interleave<0>>(rows[0], rows[1]);
-        const LaneFloat b = pick_lanes<Interleave<1>>(rows[0], rows[1]);
-        const LaneFloat c = pick_lanes<Interleave<0>>(rows[2], rows[3]);
-        const LaneFloat d = pick_lanes<Interleave<1>>(rows[2], rows[3]);
-        rows[0] = pick_lanes<Join<2, 0>>(a, c);
-        rows[1] = pick_lanes<Join<2, 1>>(a, c);
-        rows[2] = pick_lanes<Join<2, 0>>(b, d);
-        rows[3] = pick_lanes<Join<2, 1>>(b, d);
+        const LaneFloat a = pick_lanes<interleaved<0>>(rows[0], rows[1]);
+        const LaneFloat b = pick_lanes<interleaved<1>>(rows[0], rows[1]);
+        const LaneFloat c = pick_lanes<interleaved<0>>(rows[2], rows[3]);
+        const LaneFloat d = pick_lanes<interleaved<1>>(rows[2], rows[3]);
+        rows[0] = pick_lanes<joined<2, 0>>(a, c);
+        rows[1] = pick_lanes<joined<2, 1>>(a, c);
+        rows[2] = pick_lanes<joined<2, 0>>(b, d);
+        rows[3] = pick_lanes<joined<2, 1>>(b, d);
     }
     exchange_blocks<4>(tile);
 }
 
 /// The lanes of `middle` moved up by one, with the last of `before` in front, and moved down by one.
-struct OneUp {
-    static constexpr int lane(int i) { return static_cast<int>(kLaneWidth) - 1 + i; }
-};
-struct OneDown {
-    static constexpr int lane(int i) { return i + 1; }
-};
+constexpr int one_up(int i) { return static_cast<int>(kLaneWidth) - 1 + i; }
+constexpr int one_down(int i) { return i + 1; }
 PL_INLINE LaneFloat from_left(const LaneFloat& before, const LaneFloat& middle) {
-    return pick_lanes<OneUp>(before, middle);
+    return pick_lanes<one_up>(before, middle);
 }
 PL_INLINE LaneFloat from_right(const LaneFloat& middle, const LaneFloat& after) {
-    return pick_lanes<OneDown>(middle, after);
+    return pick_lanes<one_down>(middle, after);
 }
 
 /// Half of the lanes, as 64-bit integers and as floats.
@@ -117,16 +109,16 @@ PL_INLINE LaneFloat load_rounded(const std::int64_t* values) {
                        std::make_index_sequence<kLaneWidth>());
 }
 
-/// Lane kHalf * kLaneWidth / 2 + i / 2: each lane of one half twice.
+/// Each lane of one half twice.
 template <int kHalf>
-struct Twice {
-    static constexpr int lane(int i) { return (kHalf * static_cast<int>(kLaneWidth) + i) / 2; }
-};
+constexpr int doubled(int i) {
+    return (kHalf * static_cast<int>(kLaneWidth) + i) / 2;
+}
 
 /// Sets to 0 the integers whose lanes in the mask are set.
 template <int kHalf>
 PL_INLINE void clear_half(std::int64_t* values, const LaneFloat& mask) {
-    const auto wide = std::bit_cast<LaneLong>(pick_lanes<Twice<kHalf>>(mask, mask));
+    const auto wide = std::bit_cast<LaneLong>(pick_lanes<doubled<kHalf>>(mask, mask));
     std::int64_t* half = values + kHalf * (kLaneWidth / 2);
     store_lanes(load_lanes<LaneLong>(half) & ~wide, half);
 }

@@ -8,7 +8,7 @@ namespace pl {
 namespace {
 
 template <class Real>
-PL_INLINE RayCorner<float> lane_of(const RayCorner<Real>& corner, std::uint32_t lane) {
+PL_INLINE RayVector<float> lane_of(const RayVector<Real>& corner, std::uint32_t lane) {
     return {corner.x[lane], corner.y[lane], corner.z[lane]};
 }
 
@@ -21,8 +21,8 @@ PL_INLINE MaskOf<Real> same_sign(const Real& x, const Real& y) {
 /// Recomputes the edge functions exactly in `lanes`, those with a zero among them, as intersect_triangle does, and
 /// returns the mask of all lanes with consistent signs. Rare, hence not inlined.
 template <class Real>
-[[gnu::noinline, gnu::cold]] MaskOf<Real> repeat_exactly(const RayCorner<Real>& a, const RayCorner<Real>& b,
-                                                         const RayCorner<Real>& c, std::uint32_t lanes,
+[[gnu::noinline, gnu::cold]] MaskOf<Real> repeat_exactly(const RayVector<Real>& a, const RayVector<Real>& b,
+                                                         const RayVector<Real>& c, std::uint32_t lanes,
                                                          EdgeFunctions<Real>& e) {
     for (; lanes != 0; lanes &= lanes - 1) {
         const auto lane = static_cast<std::uint32_t>(std::countr_zero(lanes));
@@ -40,7 +40,7 @@ template <class Real>
 
 /// repeat_exactly() for edge functions in registers: only the rare call puts them into memory.
 template <class Real>
-PL_INLINE MaskOf<Real> repeat_exactly_in(const RayCorner<Real>& a, const RayCorner<Real>& b, const RayCorner<Real>& c,
+PL_INLINE MaskOf<Real> repeat_exactly_in(const RayVector<Real>& a, const RayVector<Real>& b, const RayVector<Real>& c,
                                          std::uint32_t lanes, EdgeFunctions<Real>& e) {
     EdgeFunctions<Real> repeated = e;
     const MaskOf<Real> inside = repeat_exactly(a, b, c, lanes, repeated);
@@ -56,7 +56,7 @@ struct LineTest {
 };
 
 template <class Real>
-PL_INLINE LineTest<Real> test_lines(const RayCorner<Real>& a, const RayCorner<Real>& b, const RayCorner<Real>& c) {
+PL_INLINE LineTest<Real> test_lines(const RayVector<Real>& a, const RayVector<Real>& b, const RayVector<Real>& c) {
     EdgeFunctions<Real> e = edge_functions(a, b, c);
     MaskOf<Real> inside = same_sign(e.u, e.v) & same_sign(e.u, e.w);
     const std::uint32_t zero = mask_bits((e.u == 0.0f) | (e.v == 0.0f) | (e.w == 0.0f));

@@ -9,7 +9,7 @@ namespace pl {
 namespace {
 
 using TestSpace = RaySpace<TestFloat, TestInt>;
-using TestCorner = RayCorner<TestFloat>;
+using TestCorner = RayVector<TestFloat>;
 using FourLanes = float __attribute__((vector_size(16)));
 
 // Shuffles of vectors of one or two blocks of four lanes.

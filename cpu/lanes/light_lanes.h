@@ -172,5 +172,36 @@ private:
     const VertexGroup& receivers_;
 };
 
+void sample_lights(const LightRows& lights, const VertexGroup* vertices, LightSampleGroup* samples,
+                   std::uint32_t groups) {
+    for_light_lanes(lights, vertices, groups,
+                    [&](const LightLanes& lanes, std::uint32_t group) { lanes.sample_by_power(samples[group]); });
+}
+
+void sample_chosen_lights(const LightRows& lights, const VertexGroup* vertices, LightSampleGroup* samples,
+                          std::uint32_t groups) {
+    for_light_lanes(lights, vertices, groups,
+                    [&](const LightLanes& lanes, std::uint32_t group) { lanes.sample_chosen(samples[group]); });
+}
+
+void sample_far_lights(const FarRows& lights, const VertexGroup* vertices, FarSampleGroup* far,
+                       LightSampleGroup* samples, std::uint32_t groups) {
+    SampledTexelOf<Lanes> texels[kBlockGroups][kGroupSize / kLaneWidth];
+    const auto for_lanes = [&](const auto& step) {
+        for (std::uint32_t group = 0; group < groups; ++group)
+            for (std::uint32_t i = 0; i < kGroupSize / kLaneWidth; ++i)
+                step(FarLightLanes(lights, vertices[group], i * kLaneWidth), texels[group][i], group);
+    };
+    using Texel = SampledTexelOf<Lanes>;
+    if (!lights.lights->map.empty()) {
+        for_lanes([](const FarLightLanes& lanes, Texel& texel, std::uint32_t) { lanes.choose_row(texel); });
+        for_lanes([](const FarLightLanes& lanes, Texel& texel, std::uint32_t) { lanes.find_columns(texel); });
+        for_lanes([](const FarLightLanes& lanes, Texel& texel, std::uint32_t) { lanes.choose_column(texel); });
+    }
+    for_lanes([&](const FarLightLanes& lanes, Texel& texel, std::uint32_t group) {
+        lanes.sample(texel, far[group], samples[group]);
+    });
+}
+
 }  // namespace
 }  // namespace pl

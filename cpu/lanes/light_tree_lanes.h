@@ -260,9 +260,8 @@ private:
     Descent descents_[kBlockGroups * kVectors];
 };
 
-PL_INLINE void choose_by_tree_in_groups(const LightTreeRows& tree, const VertexGroup* receivers,
-                                        const LearnedLightsGroup* learned, LightSampleGroup* samples,
-                                        std::uint32_t groups) {
+void choose_by_tree(const LightTreeRows& tree, const VertexGroup* receivers, const LearnedLightsGroup* learned,
+                    LightSampleGroup* samples, std::uint32_t groups) {
     DescentsInTurn<LightChoiceLanes> choices(groups);
     choices.for_all([&](LightChoiceLanes& choice, std::uint32_t group, std::uint32_t first) {
         choice.start(tree, receivers[group], learned[group], first);
@@ -274,7 +273,7 @@ PL_INLINE void choose_by_tree_in_groups(const LightTreeRows& tree, const VertexG
         [&](const LightChoiceLanes& choice, std::uint32_t group, std::uint32_t) { choice.finish(samples[group]); });
 }
 
-PL_INLINE void find_densities_of_groups(const LightTreeRows& tree, LightHitGroup* hits, std::uint32_t groups) {
+void find_light_densities(const LightTreeRows& tree, LightHitGroup* hits, std::uint32_t groups) {
     for (std::uint32_t begin = 0; begin < groups; begin += kBlockGroups) {
         DescentsInTurn<LightDensityLanes> densities(groups - begin < kBlockGroups ? groups - begin : kBlockGroups);
         densities.for_all([&](LightDensityLanes& density, std::uint32_t group, std::uint32_t first) {

@@ -124,7 +124,7 @@ PL_INLINE void for_lookup_lanes(const PlacementRows& scene, std::uint32_t groups
         for (std::uint32_t first = 0; first < kGroupSize; first += kLaneWidth) step(LookupLanes(scene, first), group);
 }
 
-PL_INLINE void read_cells_of_groups(const PlacementRows& scene, PointGroup* points, std::uint32_t groups) {
+void read_cells(const PlacementRows& scene, PointGroup* points, std::uint32_t groups) {
     for (std::uint32_t group = 0; group < groups; ++group) {
         if (points[group].cells == 0) continue;  // there may be no cells at all
         std::uint32_t with_nodes = 0;
@@ -132,6 +132,26 @@ PL_INLINE void read_cells_of_groups(const PlacementRows& scene, PointGroup* poin
             LookupLanes(scene, first).read_cells(points[group], with_nodes);
         points[group].cells = with_nodes;
     }
+}
+
+void find_points(const PlacementRows& scene, const RayGroup* rays, const HitGroup* hits, PointGroup* points,
+                 std::uint32_t groups) {
+    for_lookup_lanes(scene, groups, [&](const LookupLanes& lanes, std::uint32_t group) {
+        lanes.find_points(rays[group], hits[group], points[group]);
+    });
+}
+
+void mark_places(const PlacementRows& scene, const HitGroup* hits, PointGroup* points, std::uint32_t groups) {
+    for (std::uint32_t group = 0; group < groups; ++group) points[group].wanted = points[group].cells = 0;
+    for_lookup_lanes(scene, groups, [&](const LookupLanes& lanes, std::uint32_t group) {
+        lanes.mark_places(hits[group], points[group]);
+    });
+}
+
+void find_nearest(const PlacementRows& scene, PointGroup* points, std::uint32_t groups) {
+    for_lookup_lanes(scene, groups, [&](const LookupLanes& lanes, std::uint32_t group) {
+        if (points[group].cells != 0) lanes.find_nearest(points[group]);
+    });
 }
 
 }  // namespace

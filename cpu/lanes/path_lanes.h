@@ -82,8 +82,7 @@ PL_INLINE void copy_rows(const UniformGroup& uniforms, VectorGroup& to) {
     }
 }
 
-PL_INLINE void reach_vertices_of_groups(const SurfaceRows& scene, std::uint32_t max_depth, const BlockRows& block,
-                                        SegmentMarks& marks) {
+void reach_vertices(const SurfaceRows& scene, std::uint32_t max_depth, const BlockRows& block, SegmentMarks& marks) {
     for (std::uint32_t group = 0; group < block.groups; ++group) {
         std::uint32_t hit = 0, emits = 0, scatters = 0, is_deepest = 0;
         VertexGroup& vertices = block.vertices[group];
@@ -152,21 +151,6 @@ private:
     PathGroup& paths_;
 };
 
-/// The contributions of light samples to a group of paths.
-class ConnectedLanes : GroupRows {
-public:
-    PL_INLINE ConnectedLanes(PathGroup& paths, std::uint32_t first) : GroupRows(first), paths_(paths) {}
-
-    /// To the paths of `lanes`.
-    PL_INLINE void add(const LitGroup& lights, std::uint32_t lanes) const {
-        const Real3<Lanes> radiance = vector(paths_.radiance);
-        store(select(lanes_of(lanes), radiance + vector(lights.contribution), radiance), paths_.radiance);
-    }
-
-private:
-    PathGroup& paths_;
-};
-
 /// Calls step(lanes, group), which returns bits of lanes, for every vector of every group of a block.
 template <class Step>
 PL_INLINE void mark_path_lanes(const BlockRows& block, BlockBits& marks, const Step& step) {
@@ -177,32 +161,6 @@ PL_INLINE void mark_path_lanes(const BlockRows& block, BlockBits& marks, const S
         marks.groups[group] = static_cast<std::uint16_t>(bits);
     }
 }
-
-/// Directions of the camera rays of a pinhole, which start at its eye.
-class CameraLanes : GroupRows {
-public:
-    PL_INLINE CameraLanes(const Camera& camera, const PixelGrid& grid, std::uint32_t first)
-        : GroupRows(first), camera_(camera), grid_(grid) {}
-
-    PL_INLINE void find(const CounterGroup& counters, const UniformGroup& uniforms, VectorGroup& directions) const {
-        std::int32_t x[kLaneWidth], y[kLaneWidth];
-        for (std::uint32_t lane = 0; lane < kLaneWidth; ++lane) {
-            const std::uint32_t pixel = counters.pixel[first() + lane];
-            x[lane] = static_cast<std::int32_t>(pixel % grid_.width);
-            y[lane] = static_cast<std::int32_t>(pixel / grid_.width);
-        }
-        const Real2<Lanes> in_pixel =
-            film_point<Lanes>({row(uniforms.rows[0]), row(uniforms.rows[1])}, sequence_steps(grid_.sample));
-        const Real2<Lanes> film{Lanes::to_real(load_lanes<LaneInt>(x)) + in_pixel.x,
-                                Lanes::to_real(load_lanes<LaneInt>(y)) + in_pixel.y};
-        const Vec2f resolution{static_cast<float>(grid_.width), static_cast<float>(grid_.height)};
-        store(camera_direction(camera_, film, resolution), directions);
-    }
-
-private:
-    const Camera& camera_;
-    const PixelGrid& grid_;
-};
 
 #if defined(__AVX512F__)
 /// Appends the lanes of a vector that are in `lanes` to a row that is full up to lane `begin`; `next`: the row of the next group.
@@ -260,20 +218,72 @@ PL_INLINE void append_shadow_rays(const LightSampleGroup& samples, const std::ui
 
 /// Packs the shadow rays of a block's samples that can contribute, of the paths in `lit`, and keeps their contributions with the paths.
 /// Leaves in `lit` the paths that have one. `count`: of the rays in the batch, whose t_max is 1. Returns their number afterwards.
-PL_INLINE std::uint32_t pack_shadow_rays_of_groups(const VertexGroup* vertices, const LightSampleGroup* samples,
-                                                   BlockBits& lit, LitGroup* kept, RayGroup* rays,
-                                                   std::uint32_t count, std::uint32_t groups) {
-    for (std::uint32_t group = 0; group < groups; ++group) {
+std::uint32_t pack_shadow_rays(const BlockRows& block, const LightSampleGroup* samples, BlockBits& lit,
+                               VectorGroup* kept, RayGroup* rays, std::uint32_t count) {
+    for (std::uint32_t group = 0; group < block.groups; ++group) {
         std::uint32_t lanes = 0;
         for (std::uint32_t first = 0; first < kGroupSize; first += kLaneWidth)
             lanes |= mask_bits(load_lanes<LaneFloat>(samples[group].pdf_sa + first) > 0.0f) << first;
         lanes &= lit.groups[group];
         lit.groups[group] = static_cast<std::uint16_t>(lanes);
-        std::memcpy(&kept[group].contribution, &samples[group].contribution, sizeof kept[group].contribution);
-        append_shadow_rays(samples[group], vertices[group].primitive, lanes, rays, count);
+        std::memcpy(&kept[group], &samples[group].contribution, sizeof kept[group]);
+        append_shadow_rays(samples[group], block.vertices[group].primitive, lanes, rays, count);
         count += static_cast<std::uint32_t>(std::popcount(lanes));
     }
     return count;
+}
+
+/// Directions of the camera rays of a pinhole, which start at its eye.
+PL_INLINE void find_camera_directions(const GroupRows& lanes, const Camera& camera, const PixelGrid& grid,
+                                      const CounterGroup& counters, const UniformGroup& uniforms,
+                                      VectorGroup& directions) {
+    std::int32_t x[kLaneWidth], y[kLaneWidth];
+    for (std::uint32_t lane = 0; lane < kLaneWidth; ++lane) {
+        const std::uint32_t pixel = counters.pixel[lanes.first() + lane];
+        x[lane] = static_cast<std::int32_t>(pixel % grid.width);
+        y[lane] = static_cast<std::int32_t>(pixel / grid.width);
+    }
+    const Real2<Lanes> in_pixel =
+        film_point<Lanes>({lanes.row(uniforms.rows[0]), lanes.row(uniforms.rows[1])}, sequence_steps(grid.sample));
+    const Real2<Lanes> film{Lanes::to_real(load_lanes<LaneInt>(x)) + in_pixel.x,
+                            Lanes::to_real(load_lanes<LaneInt>(y)) + in_pixel.y};
+    const Vec2f resolution{static_cast<float>(grid.width), static_cast<float>(grid.height)};
+    lanes.store(camera_direction(camera, film, resolution), directions);
+}
+
+void find_camera_directions(const Camera& camera, const PixelGrid& grid, const CounterGroup* counters,
+                            const UniformGroup* uniforms, VectorGroup* directions, std::uint32_t groups) {
+    for (std::uint32_t group = 0; group < groups; ++group)
+        for (std::uint32_t first = 0; first < kGroupSize; first += kLaneWidth)
+            find_camera_directions(GroupRows(first), camera, grid, counters[group], uniforms[group],
+                                   directions[group]);
+}
+
+void play_roulette(const PathSettings& settings, const BlockRows& block, const float* estimates,
+                   BlockBits& continuing) {
+    mark_path_lanes(block, continuing, [&](const PathLanes& lanes, std::uint32_t group) {
+        const float* of_group = estimates == nullptr ? nullptr : estimates + group * kGroupSize;
+        return lanes.play_roulette(settings, block.scatter[group], of_group);
+    });
+}
+
+void scatter_paths(const BlockRows& block, const DirectionGroup* directions, RayGroup* rays, BlockBits& lit) {
+    mark_path_lanes(block, lit, [&](const PathLanes& lanes, std::uint32_t group) {
+        return lanes.scatter(directions[group], lit.groups[group], rays[group]);
+    });
+}
+
+/// Adds contributions of light samples in `lanes`.
+PL_INLINE void connect_lanes(const GroupRows& rows, const VectorGroup& lights, std::uint32_t lanes,
+                             VectorGroup& radiance) {
+    const Real3<Lanes> before = rows.vector(radiance);
+    rows.store(select(rows.lanes_of(lanes), before + rows.vector(lights), before), radiance);
+}
+
+void connect_paths(const VectorGroup* lights, const BlockBits& lit, PathGroup* paths, std::uint32_t groups) {
+    for (std::uint32_t group = 0; group < groups; ++group)
+        for (std::uint32_t first = 0; first < kGroupSize; first += kLaneWidth)
+            connect_lanes(GroupRows(first), lights[group], lit.groups[group], paths[group].radiance);
 }
 
 }  // namespace

@@ -34,8 +34,7 @@ PL_INLINE void store_uniforms(const PhiloxWords<LaneUint>& bits, UniformGroup& u
     for (int i = 0; i < 4; ++i) store_lanes(to_unit<Lanes>(bits.v[i]), uniforms.rows[i] + first);
 }
 
-PL_INLINE void draw_groups(const DrawKey& key, const CounterGroup* counters, UniformGroup* uniforms,
-                           std::uint32_t groups) {
+void draw(const DrawKey& key, const CounterGroup* counters, UniformGroup* uniforms, std::uint32_t groups) {
     for (std::uint32_t group = 0; group < groups; ++group)
         for (std::uint32_t first = 0; first < kGroupSize; first += kLaneWidth) {
             const auto sample = load_lanes<LaneUint>(counters[group].sample + first);
@@ -58,8 +57,7 @@ PL_INLINE PhiloxWords<LaneUint> vertex_bits_lanes(const DrawKey& key, const Coun
     return bits;
 }
 
-PL_INLINE void draw_vertex_groups(const DrawKey& key, const CounterGroup* counters, UniformGroup* uniforms,
-                                  std::uint32_t groups) {
+void draw_vertices(const DrawKey& key, const CounterGroup* counters, UniformGroup* uniforms, std::uint32_t groups) {
     for (std::uint32_t group = 0; group < groups; ++group)
         for (std::uint32_t first = 0; first < kGroupSize; first += kLaneWidth)
             store_uniforms(vertex_bits_lanes(key, counters[group], first), uniforms[group], first);

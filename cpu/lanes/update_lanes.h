@@ -32,24 +32,20 @@ private:
         return kSide != 0 ? kSide : static_cast<std::uint32_t>(field_.cells.side);
     }
 
-    /// Per row, and sums over the volume in ascending order of row.
-    struct RowMeans {
-        alignas(64) float radiance[kMostRows], visited[kMostRows], change[kMostRows], changed[kMostRows];
-    };
-
+    /// Sums each row, and then the rows in ascending order.
     PL_INLINE void absorb_samples() {
-        RowMeans rows;
+        alignas(64) float radiance[kMostRows], visited[kMostRows], change[kMostRows], changed[kMostRows];
         for (std::uint32_t row = 0; row < side(); row += kLaneWidth) {
             MeanSums<Lanes> sums;
             for (std::uint32_t column = 0; column < side(); column += kLaneWidth) add_tile(row, column, sums);
-            store_lanes(sums.radiance, rows.radiance + row);
-            store_lanes(sums.visited, rows.visited + row);
-            store_lanes(sums.change, rows.change + row);
-            store_lanes(sums.changed, rows.changed + row);
+            store_lanes(sums.radiance, radiance + row);
+            store_lanes(sums.visited, visited + row);
+            store_lanes(sums.change, change + row);
+            store_lanes(sums.changed, changed + row);
         }
         MeanSums<One> sums;
         for (std::uint32_t row = 0; row < side(); ++row)
-            sums.add_row({rows.radiance[row], rows.visited[row], rows.change[row], rows.changed[row]});
+            sums.add_row({radiance[row], visited[row], change[row], changed[row]});
         mean_radiance_ = sums.mean_radiance();
         field_.mean_radiance.data[volume_] = mean_radiance_;
         if (sums.changed > 0.0f) field_.change.data[volume_] = sums.change / sums.changed;
@@ -211,7 +207,7 @@ private:
     alignas(64) float turned_[kMostCells];                      ///< [block of rows][column][row in the block]
 };
 
-PL_INLINE bool update_table_in_lanes(const TableUpdateView& field, std::uint32_t volume) {
+bool update_table(const TableUpdateView& field, std::uint32_t volume) {
     constexpr std::uint32_t kCommonSide = 16;  // the default
     const auto side = static_cast<std::uint32_t>(field.cells.side);
     if (side % kLaneWidth != 0) return false;
@@ -222,7 +218,7 @@ PL_INLINE bool update_table_in_lanes(const TableUpdateView& field, std::uint32_t
     return true;
 }
 
-PL_INLINE bool any_sample_in_lanes(const TableUpdateView& field, std::uint32_t volume) {
+bool has_samples(const TableUpdateView& field, std::uint32_t volume) {
     const auto cells = static_cast<std::uint32_t>(field.cells.side * field.cells.side);
     const std::uint32_t* counts = field.pending_count.data + static_cast<std::size_t>(volume) * cells;
     LaneUint found{};

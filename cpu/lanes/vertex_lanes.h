@@ -79,10 +79,9 @@ public:
     PL_INLINE GuidedLanes(const TableSampler& tables, const VertexGroup& vertices, const GuidedGroup& paths,
                           std::uint32_t first)
         : GroupRows(first), tables_(tables),
-          vertices_(vertices), point_{{integers(paths.volume), vector(paths.site), vector(paths.volume_normal),
+          vertices_(vertices), served_{integers(paths.volume), vector(paths.site), vector(paths.volume_normal),
                                        row(paths.inverse_reach), vector(vertices.position)},
-                                      vector(vertices.shading_normal),
-                                      row(paths.bsdf_fraction)} {}
+          shading_normal_(vector(vertices.shading_normal)), bsdf_fraction_(row(paths.bsdf_fraction)) {}
 
     PL_INLINE void sample_rows(SampledGroup& sampled) const {
         const LaneInt guided = is_guided();
@@ -110,11 +109,11 @@ public:
         const Real3<Lanes> wi = vector(sampled.direction);
         const TableDirection<Lanes> direction{
             {row(sampled.square_x), row(sampled.square_y)}, row(sampled.cosine), row(sampled.jacobian)};
-        const LaneInt served = point_.served.volume >= 0;
+        const LaneInt served = served_.volume >= 0;
         const TableDensity<Lanes> table =
-            tables_.density<Lanes>(select(served, point_.served.volume, LaneInt{}), direction);
-        const LaneFloat bsdf_pdf_sa = cosine_pdf_sa<Lanes>(dot(wi, point_.shading_normal));
-        const LaneFloat a = point_.bsdf_fraction;
+            tables_.density<Lanes>(select(served, served_.volume, LaneInt{}), direction);
+        const LaneFloat bsdf_pdf_sa = cosine_pdf_sa<Lanes>(dot(wi, shading_normal_));
+        const LaneFloat a = bsdf_fraction_;
         const LaneFloat mixed = a * bsdf_pdf_sa + (1.0f - a) * table.pdf_sa;
         store(wi, directions.wi);
         store(select(served, mixed, bsdf_pdf_sa), directions.pdf_sa);
@@ -127,12 +126,12 @@ private:
 
     /// Finds the directions in their tables.
     PL_INLINE void locate(const Real3<Lanes>& wi, SampledGroup& sampled) const {
-        const TableDirection<Lanes> direction = tables_.locate(point_.served, wi);
+        const TableDirection<Lanes> direction = tables_.locate(served_, wi);
         store(direction.square.x, sampled.square_x);
         store(direction.square.y, sampled.square_y);
         store(direction.cosine, sampled.cosine);
         store(direction.jacobian, sampled.jacobian);
-        const DirectionTables<Lanes> tables = tables_of(point_.served.volume >= 0);
+        const DirectionTables<Lanes> tables = tables_of(served_.volume >= 0);
         const CellPair<Lanes> columns(tables_.cells, direction.square.x);
         const CellPair<Lanes> rows(tables_.cells, direction.square.y);
         Lanes::prefetch(tables_.column_cdf, tables.first_of_row(rows.first) + columns.first);
@@ -141,25 +140,27 @@ private:
 
     /// Mask of the lanes that sample the table rather than the BSDF.
     PL_INLINE LaneInt is_guided() const {
-        return (point_.served.volume >= 0) & (row(vertices_.scatter.x) >= point_.bsdf_fraction);
+        return (served_.volume >= 0) & (row(vertices_.scatter.x) >= bsdf_fraction_);
     }
     /// The table of each lane's volume; of volume 0 in lanes outside the mask.
     PL_INLINE DirectionTables<Lanes> tables_of(const LaneInt& wanted) const {
-        return tables_.tables_of<Lanes>(select(wanted, point_.served.volume, LaneInt{}));
+        return tables_.tables_of<Lanes>(select(wanted, served_.volume, LaneInt{}));
     }
     PL_INLINE Real3<Lanes> mixture_direction(const LaneInt& table_row) const {
         const LaneInt guided = is_guided();
         const Real2<Lanes> u{row(vertices_.scatter.y), row(vertices_.scatter.z)};
         Real2<Lanes> square = u;
         if (Lanes::any(guided)) square = select(guided, sample_square(tables_of(guided), table_row, u), u);
-        const FrameOf<Lanes> frame = make_frame(select(guided, point_.served.normal, point_.shading_normal));
+        const FrameOf<Lanes> frame = make_frame(select(guided, served_.normal, shading_normal_));
         const Real3<Lanes> direction = frame.to_world(square_to_cosine_hemisphere(square));
-        return select(guided, TableSampler::parallax_of(point_.served).to_point(direction), direction);
+        return select(guided, TableSampler::parallax_of(served_).to_point(direction), direction);
     }
 
     const TableSampler& tables_;
     const VertexGroup& vertices_;
-    MixturePoint<Lanes> point_;
+    ServedPoint<Lanes> served_;
+    Real3<Lanes> shading_normal_;
+    LaneFloat bsdf_fraction_;  ///< a, in (0, 1]
 };
 
 /// Calls step(lanes, group) for every vector of every group.
@@ -171,14 +172,14 @@ PL_INLINE void for_guided_lanes(const TableSampler& tables, const VertexGroup* v
             step(GuidedLanes(tables, vertices[group], paths[group], first), group);
 }
 
-PL_INLINE void sample_rows_of_group(const TableSampler& tables, const VertexGroup& vertices, const GuidedGroup& paths,
-                                    SampledGroup& sampled) {
+void sample_rows(const TableSampler& tables, const VertexGroup& vertices, const GuidedGroup& paths,
+                 SampledGroup& sampled) {
     for_guided_lanes(tables, &vertices, &paths, 1,
                      [&](const GuidedLanes& lanes, std::uint32_t) { lanes.sample_rows(sampled); });
 }
 
-PL_INLINE void weigh_guided_groups(const TableSampler& tables, const VertexGroup* vertices, const GuidedGroup* paths,
-                                   const LightSampleGroup* lights, DirectionGroup* directions, std::uint32_t groups) {
+void weigh_guided(const TableSampler& tables, const VertexGroup* vertices, const GuidedGroup* paths,
+                  const LightSampleGroup* lights, DirectionGroup* directions, std::uint32_t groups) {
     SampledGroup sampled[kBlockGroups];
     for_guided_lanes(tables, vertices, paths, groups, [&](const GuidedLanes& lanes, std::uint32_t group) {
         lanes.locate_light(lights[group], sampled[group]);
@@ -188,12 +189,31 @@ PL_INLINE void weigh_guided_groups(const TableSampler& tables, const VertexGroup
     });
 }
 
-PL_INLINE void sample_guided_groups(const TableSampler& tables, const VertexGroup* vertices, const GuidedGroup* paths,
-                                    SampledGroup* sampled, DirectionGroup* directions, std::uint32_t groups) {
+void sample_guided(const TableSampler& tables, const VertexGroup* vertices, const GuidedGroup* paths,
+                   SampledGroup* sampled, DirectionGroup* directions, std::uint32_t groups) {
     for_guided_lanes(tables, vertices, paths, groups,
                      [&](const GuidedLanes& lanes, std::uint32_t group) { lanes.sample_direction(sampled[group]); });
     for_guided_lanes(tables, vertices, paths, groups, [&](const GuidedLanes& lanes, std::uint32_t group) {
         lanes.weigh(sampled[group], directions[group]);
+    });
+}
+
+void sample_lambert(const VertexGroup* vertices, DirectionGroup* directions, std::uint32_t groups) {
+    for_vertex_lanes(vertices, groups,
+                     [&](const VertexLanes& lanes, std::uint32_t group) { lanes.sample_lambert(directions[group]); });
+}
+
+void weigh_lambert(const VertexGroup* vertices, const LightSampleGroup* lights, DirectionGroup* directions,
+                   std::uint32_t groups) {
+    for_vertex_lanes(vertices, groups, [&](const VertexLanes& lanes, std::uint32_t group) {
+        lanes.weigh_lambert(lights[group], directions[group]);
+    });
+}
+
+void weigh_lights(const VertexGroup* vertices, const DirectionGroup* directions, LightSampleGroup* samples,
+                  std::uint32_t groups) {
+    for_vertex_lanes(vertices, groups, [&](const VertexLanes& lanes, std::uint32_t group) {
+        lanes.weigh_light(directions[group], samples[group]);
     });
 }
 

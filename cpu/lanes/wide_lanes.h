@@ -165,14 +165,13 @@ PL_INLINE void trace_all(const WideView& scene, const RayGroup* rays, std::uint3
         flight.trace(rays, first, min_of(count, first + Flight::kMostRays));
 }
 
-PL_INLINE void closest_in_wide(const WideView& scene, const RayGroup* rays, HitGroup* hits, std::uint32_t count) {
+void find_closest_wide(const WideView& scene, const RayGroup* rays, HitGroup* hits, std::uint32_t count) {
     trace_all<false>(scene, rays, count, [hits](std::uint32_t index, const Hit& hit) {
         store_hit(hit, hits[index / kGroupSize], index % kGroupSize);
     });
 }
 
-PL_INLINE void occlusion_in_wide(const WideView& scene, const RayGroup* rays, OcclusionMask* masks,
-                                 std::uint32_t count) {
+void find_occluded_wide(const WideView& scene, const RayGroup* rays, OcclusionMask* masks, std::uint32_t count) {
     for (std::uint32_t group = 0; group < group_count(count); ++group) masks[group] = 0;
     trace_all<true>(scene, rays, count, [masks](std::uint32_t index, const Hit& hit) {
         const std::uint32_t bit = hit.primitive != kNoPrimitive ? 1u << (index % kGroupSize) : 0u;

@@ -40,13 +40,11 @@ private:
 };
 
 /// A training sample in a queue.
-template <TableGuided M>
+template <class M>
 struct QueuedSample {
-    using Source = typename M::Sample;
-
     typename M::Sample sample;
 
-    static std::int32_t volume_of(const Source& sample) { return sample.entry.volume; }
+    static std::int32_t volume_of(const typename M::Sample& sample) { return sample.entry.volume; }
     void prefetch(const TableField& field) const {
         const std::uint32_t cell = field.cell_index(sample.entry.volume, sample.entry.cell);
         __builtin_prefetch(field.pending_sum.data + cell, 1);
@@ -56,29 +54,19 @@ struct QueuedSample {
 };
 
 /// A light sample in a queue.
-template <TableGuided M>
+template <class M>
 struct QueuedLight {
-    using Source = typename M::Light;
-
     typename M::Light light;
     bool is_visible = false;
 
-    static std::int32_t volume_of(const Source& light, bool) { return light.location.volume; }
+    static std::int32_t volume_of(const typename M::Light& light, bool) { return light.location.volume; }
     void prefetch(const TableField&) const {}  // there are few volumes
     void add_to(const M& method) const { method.record_light(light, is_visible); }
 };
 
-/// `Item` is QueuedSample or QueuedLight. Empty for methods that make none.
-template <TableGuided M, class Item>
+/// `Item` is QueuedSample or QueuedLight.
+template <class M, class Item>
 class TrainingQueue {
-public:
-    TrainingQueue(const M&, VolumeLocks&) {}
-    void push(const auto&...) {}
-    void flush() {}
-};
-
-template <TableGuided M, class Item>
-requires(!std::is_empty_v<typename Item::Source>) class TrainingQueue<M, Item> {
 public:
     TrainingQueue(const M& method, VolumeLocks& locks)
         : method_(method), locks_(locks), ranges_(VolumeLocks::kRanges) {

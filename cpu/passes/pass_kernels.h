@@ -68,19 +68,9 @@ extern const PassKernels<ProbePass> kProbeKernels;
 extern const PassKernels<EmissionPass> kEmissionKernels;
 extern const PassKernels<ViewPass> kViewKernels;
 
-/// Maps a method to the type that run_paths() uses: methods guided by tables get their lookups ahead.
-template <Method M>
-struct RunMethod {
-    using Type = M;
-};
-template <TableGuided M>
-struct RunMethod<M> {
-    using Type = LookedUpAhead<M>;
-};
-
 template <FeatureSet F, Method M>
 PassCounters run_picture_pass(const PicturePass& pass) {
-    typename RunMethod<M>::Type method;
+    std::conditional_t<TableGuided<M>, LookedUpAhead<M>, M> method;
     configure_method(method, pass.field, pass.settings);
     const PictureWork<F, decltype(method)> work{pass.camera, pass.sample, pass.film, pass.use, pass.subset};
     return run_paths<F>(pass.setup, pass.tracer, method, work);

@@ -2,6 +2,7 @@
 // volumes that are looked up before the paths reach their vertices, and queues of training samples.
 #pragma once
 
+#include <array>
 #include <new>
 #include <vector>
 
@@ -9,52 +10,54 @@
 #include "core/kernel/methods/targets/expected_sarsa.h"
 #include "core/kernel/methods/targets/frozen.h"
 #include "cpu/base/groups.h"
-#include "cpu/base/uniform_batch.h"
 #include "cpu/learning/lookups_ahead.h"
 #include "cpu/learning/training_queue.h"
 #include "cpu/paths/pass_setup.h"
 
 namespace pl {
 
-/// State shared by the threads of a pass; empty for methods not guided by tables.
+/// Number of volumes that a method is guided by, if by tables.
 template <class M>
-struct SharedByThreads {
-    explicit SharedByThreads(const M&) {}
-};
-template <TableGuided M>
-struct SharedByThreads<M> {
-    VolumeLocks locks;
-
-    explicit SharedByThreads(const M& method) : locks(method.field.normals.count) {}
-};
+std::uint32_t guiding_volumes([[maybe_unused]] const M& method) {
+    if constexpr (TableGuided<M>)
+        return method.field.normals.count;
+    else
+        return 0;
+}
 
 /// Lookups and training samples of one thread. Methods not guided by tables look up and record path by path.
 template <class M>
-struct GuidedMemory {
-    GuidedMemory(const M& method, SharedByThreads<M>&) : method_(method) {}
-    void record(const typename M::Sample& sample) { method_.record(sample); }
-    void record_light(const typename M::Light& light, bool is_visible) { method_.record_light(light, is_visible); }
-    void flush() {}
-
-private:
-    const M& method_;
-};
-template <TableGuided M>
-struct GuidedMemory<M> {
-    LookupsAhead lookups[2];  ///< of the current and the next block
-
-    GuidedMemory(const M& method, SharedByThreads<M>& shared)
-        : training_(method, shared.locks), lights_(method, shared.locks) {}
-    void record(const typename M::Sample& sample) { training_.push(sample); }
-    void record_light(const typename M::Light& light, bool is_visible) { lights_.push(light, is_visible); }
+class GuidedMemory {
+public:
+    GuidedMemory(const M& method, VolumeLocks& locks)
+        : method_(method), training_(method, locks), lights_(method, locks) {}
+    void record(const typename M::Sample& sample) {
+        if constexpr (!TableGuided<M>)
+            method_.record(sample);
+        else if constexpr (kQueuesSamples)
+            training_.push(sample);
+    }
+    void record_light(const typename M::Light& light, bool is_visible) {
+        if constexpr (!TableGuided<M>)
+            method_.record_light(light, is_visible);
+        else if constexpr (kQueuesLights)
+            lights_.push(light, is_visible);
+    }
     void flush() {
-        training_.flush();
-        lights_.flush();
+        if constexpr (kQueuesSamples) training_.flush();
+        if constexpr (kQueuesLights) lights_.flush();
     }
 
+    [[no_unique_address]] MemberIf<TableGuided<M>, std::array<LookupsAhead, 2>>
+        lookups;  ///< of the current and the next block
+
 private:
-    TrainingQueue<M, QueuedSample<M>> training_;
-    TrainingQueue<M, QueuedLight<M>> lights_;
+    static constexpr bool kQueuesSamples = TableGuided<M> && !std::is_empty_v<typename M::Sample>;
+    static constexpr bool kQueuesLights = TableGuided<M> && !std::is_empty_v<typename M::Light>;
+
+    const M& method_;
+    [[no_unique_address]] MemberIf<kQueuesSamples, TrainingQueue<M, QueuedSample<M>>> training_;
+    [[no_unique_address]] MemberIf<kQueuesLights, TrainingQueue<M, QueuedLight<M>>> lights_;
 };
 
 /// Methods whose hooks do nothing.
@@ -73,6 +76,56 @@ inline constexpr bool kHooksInLanes = Hookless<M> || LaneLearning<M>;
 /// Whether the method is told of specular chains.
 template <FeatureSet F, class M>
 inline constexpr bool kTellsChains = F.has_any(kLobeFeatures) && !Hookless<M>;
+
+/// Random numbers of a batch of paths for their next vertices, bit-identical to draw_vertex_uniforms() of each path.
+class UniformBatch {
+public:
+    UniformBatch(std::uint32_t capacity, bool with_light)
+        : counters_(group_count(capacity)), scatter_(counters_.size()), light_(with_light ? counters_.size() : 0) {}
+
+    template <FeatureSet F, class M>
+    void set_path(std::uint32_t index, const PathState<F, M>& state) {
+        CounterGroup& group = counters_[index / kGroupSize];
+        const std::uint32_t lane = index % kGroupSize;
+        group.pixel[lane] = state.pixel;
+        group.sample[lane] = state.sample;
+        group.vertex[lane] = state.vertices + 1;
+    }
+
+    void move(std::uint32_t from, std::uint32_t to) {
+        const CounterGroup& source = counters_[from / kGroupSize];
+        CounterGroup& group = counters_[to / kGroupSize];
+        group.pixel[to % kGroupSize] = source.pixel[from % kGroupSize];
+        group.sample[to % kGroupSize] = source.sample[from % kGroupSize];
+        group.vertex[to % kGroupSize] = source.vertex[from % kGroupSize];
+    }
+    std::uint32_t pixel(std::uint32_t index) const { return counters_[index / kGroupSize].pixel[index % kGroupSize]; }
+    std::uint32_t sample(std::uint32_t index) const {
+        return counters_[index / kGroupSize].sample[index % kGroupSize];
+    }
+    CounterGroup* counter_groups() { return counters_.data(); }
+    const UniformGroup* scatter_groups() const { return scatter_.data(); }
+    /// Null without light sampling.
+    const UniformGroup* light_groups() const { return light_.empty() ? nullptr : light_.data(); }
+
+    /// Draws the numbers of the first `count` paths.
+    void draw(const PathSettings& settings, std::uint32_t count) {
+        DrawKey key{settings.seed, settings.stream, Purpose::Scatter, settings.sequences};
+        draw_rows(key, scatter_, count);
+        key.purpose = Purpose::Light;
+        if (!light_.empty()) draw_rows(key, light_, count);
+    }
+
+private:
+    void draw_rows(const DrawKey& key, std::vector<UniformGroup>& rows, std::uint32_t count) const {
+        kernels_.draw_vertices(key, counters_.data(), rows.data(), group_count(count));
+    }
+
+    LaneKernels kernels_ = best_lane_kernels();
+    std::vector<CounterGroup> counters_;
+    std::vector<UniformGroup> scatter_;
+    std::vector<UniformGroup> light_;  ///< empty without light sampling
+};
 
 /// The states of a batch of paths. Members of PathState that lanes do not read have no row: the glass around a path, its specular chain,
 /// its choice of lights, and the types of a method with hooks that are called path by path. Where there are any, they stay in a PathState
@@ -133,7 +186,7 @@ public:
         state.direction_pdf_sa = group.direction_pdf_sa[lane];
         state.survival = group.survival[lane];
         state.vertices = group.vertices[lane];
-        if constexpr (F.has_any(kLobeFeatures)) state.specular.vertices = group.specular[lane];
+        if constexpr (F.has_any(kLobeFeatures)) state.specular_vertices = group.specular[lane];
         if constexpr (kOpensSamples) state.memory = open_sample(i);
         return state;
     }
@@ -168,7 +221,7 @@ public:
     /// The learned choice of lights where path i was last scattered.
     LearnedLights learned_lights(std::uint32_t i) const {
         if constexpr (learns_lights<F, M>)
-            return states_[i].lights.learned();
+            return states_[i].lights;
         else
             return {};
     }
@@ -202,8 +255,8 @@ private:
 /// The paths of a batch, with what their steps need.
 template <FeatureSet F, Method M>
 struct Paths {
-    Paths(const PassSetup& arguments, const M& of, SharedByThreads<M>& shared)
-        : setup(arguments), method(of), guided(method, shared), rows(arguments.batch_paths, samples_lights()) {}
+    Paths(const PassSetup& arguments, const M& of, VolumeLocks& locks)
+        : setup(arguments), method(of), guided(method, locks), rows(arguments.batch_paths, samples_lights()) {}
     Paths(const Paths&) = delete;
     Paths& operator=(const Paths&) = delete;
 

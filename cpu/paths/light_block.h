@@ -1,6 +1,7 @@
 // Light samples at the vertices of a block: lights are chosen in SIMD lanes, and sampled there at Lambert reflectors.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "core/kernel/integrator/light_sample.h"
@@ -8,37 +9,14 @@
 
 namespace pl {
 
-/// Choices of lights that were learned for the vertices of a block.
+/// LearnedLights::cdf of all volumes of a method, one after the other; null: nothing is learned.
 template <FeatureSet F, Method M>
-struct LearnedLightsBlock {
-    explicit LearnedLightsBlock(const M&) {}
-    const float* learned_cdf() const { return nullptr; }
-    void find(const auto& /*block*/) {}
-
-    LearnedLightsGroup groups[kBlockGroups];
-};
-template <FeatureSet F, Method M>
-requires(learns_lights<F, M>) struct LearnedLightsBlock<F, M> {
-    explicit LearnedLightsBlock(const M& method) : method_(method) {}
-    const float* learned_cdf() const { return method_.field.light_cdf.data; }
-    void find(const auto& block) {
-        block.for_reached([&](std::uint32_t i) {
-            groups[i / kGroupSize].set(i % kGroupSize, learned_lights<F>(method_, block.vertex(i)).learned(),
-                                       learned_cdf());
-        });
-    }
-
-    LearnedLightsGroup groups[kBlockGroups];
-
-private:
-    const M& method_;
-};
-
-/// Samples of far lights for the vertices of a block.
-struct FarBlock {
-    FarSampleGroup groups[kBlockGroups];
-};
-struct NoFarBlock {};
+const float* learned_cdf([[maybe_unused]] const M& method) {
+    if constexpr (learns_lights<F, M>)
+        return method.field.light_cdf.data;
+    else
+        return nullptr;
+}
 
 /// A light sample for every vertex of a block: bit-identical to sample_light() and weigh_light().
 template <FeatureSet F, Method M>
@@ -47,7 +25,7 @@ public:
     /// `lights`: of the scene; without them lights are sampled path by path.
     LightBlock(const PathContext<M>& context, const LightTable* lights,
                const LaneKernels& kernels = best_lane_kernels())
-        : context_(context), lights_(lights), kernels_(kernels), learned_(context.method) {}
+        : context_(context), lights_(lights), kernels_(kernels) {}
 
     void sample(const auto& block) {
         if (lanes_pay()) sample_in_lanes(block);
@@ -139,13 +117,21 @@ private:
         if constexpr (F.has(Feature::ManyLights)) {
             const LightTree& tree = context_.scene.light_tree;
             if (!tree.empty()) {
-                learned_.find(block);
-                kernels_.choose_by_tree(rows_of(tree, learned_.learned_cdf()), block.groups(), learned_.groups,
+                find_learned(block);
+                kernels_.choose_by_tree(rows_of(tree, learned_cdf<F>(context_.method)), block.groups(), learned_,
                                         samples_, block.group_count());
                 return kernels_.sample_chosen_lights(lights, block.groups(), samples_, block.group_count());
             }
         }
         kernels_.sample_lights(lights, block.groups(), samples_, block.group_count());
+    }
+    /// The choices of lights that were learned for the vertices.
+    void find_learned([[maybe_unused]] const auto& block) {
+        if constexpr (learns_lights<F, M>)
+            block.for_reached([&](std::uint32_t i) {
+                learned_[i / kGroupSize].set(i % kGroupSize, learned_lights<F>(context_.method, block.vertex(i)),
+                                             learned_cdf<F>(context_.method));
+            });
     }
     bool far_lights_are_in_lanes() const {
         [[maybe_unused]] const SceneView& scene = context_.scene;
@@ -158,7 +144,7 @@ private:
     void sample_far_in_lanes([[maybe_unused]] const auto& block) {
         if constexpr (F.has(Feature::EnvironmentMap)) {
             const SceneView& scene = context_.scene;
-            kernels_.sample_far_lights({&scene.far_lights, scene.far_probability}, block.groups(), far_.groups,
+            kernels_.sample_far_lights({&scene.far_lights, scene.far_probability}, block.groups(), far_.data(),
                                        samples_, block.group_count());
         }
     }
@@ -176,10 +162,10 @@ private:
     DirectLight sample_alone(const auto& block, std::uint32_t i, const SurfacePoint& surface, const B& bsdf) const {
         if constexpr (F.has(Feature::EnvironmentMap)) {
             if (is_far_in_lanes(block, i))
-                return far_light_from(context_.scene, surface, bsdf, far_.groups[i / kGroupSize].get(i % kGroupSize));
+                return far_light_from(context_.scene, surface, bsdf, far_[i / kGroupSize].get(i % kGroupSize));
         }
         return sample_direct_light<F>(context_.scene, surface, bsdf, block.light_uniforms(i),
-                                      learned_lights<F>(context_.method, block.vertex(i)).learned());
+                                      learned_lights<F>(context_.method, block.vertex(i)));
     }
     void sample_lambert(const auto& block, std::uint32_t i) {
         const SurfacePoint surface = block.surface(i);
@@ -249,13 +235,8 @@ private:
     const LightTable* lights_;
     LaneKernels kernels_;
     LightSampleGroup samples_[kBlockGroups];
-    LearnedLightsBlock<F, M> learned_;
-    [[no_unique_address]] std::conditional_t<F.has(Feature::EnvironmentMap), FarBlock, NoFarBlock> far_;
-};
-template <FeatureSet F, Method M>
-requires(!F.has(Feature::NextEventEstimation)) class LightBlock<F, M> {
-public:
-    LightBlock(const PathContext<M>&, const LightTable*) {}
+    LearnedLightsGroup learned_[kBlockGroups];
+    [[no_unique_address]] MemberIf<F.has(Feature::EnvironmentMap), std::array<FarSampleGroup, kBlockGroups>> far_;
 };
 
 /// Lights of a tree that the paths of a batch have hit: the densities of light sampling there, found in SIMD lanes.
@@ -265,7 +246,7 @@ class LightHits {
 public:
     /// `lights`: of the scene; without them nothing is found.
     LightHits(const PathContext<M>& context, const LightTable* lights, std::uint32_t batch_paths)
-        : context_(context), lights_(lights), learned_(context.method) {
+        : context_(context), lights_(lights) {
         if (wanted()) pdf_area_.resize(batch_paths);
     }
 
@@ -278,8 +259,8 @@ public:
         for (std::uint32_t path = 0; path < count; ++path)
             if (lights_->is_light(paths.rays.primitive(path)) && paths.direction_pdf_sa(path) > 0.0f)
                 add(paths, path);
-        kernels_.find_light_densities(rows_of(context_.scene.light_tree, learned_.learned_cdf()), hits_.data(),
-                                      group_count(count_));
+        kernels_.find_light_densities(rows_of(context_.scene.light_tree, learned_cdf<F>(context_.method)),
+                                      hits_.data(), group_count(count_));
         for (std::uint32_t i = 0; i < count_; ++i)
             pdf_area_[paths_[i]] = hits_[i / kGroupSize].pdf_area[i % kGroupSize];
     }
@@ -298,23 +279,17 @@ private:
         const std::uint32_t lane = count_ % kGroupSize;
         group.from.set(lane, paths.rays.ray(path).origin);
         group.light[lane] = lights_->light_of(paths.rays.primitive(path));
-        group.learned.set(lane, paths.learned_lights(path), learned_.learned_cdf());
+        group.learned.set(lane, paths.learned_lights(path), learned_cdf<F>(context_.method));
         paths_[count_++] = path;
     }
 
     const PathContext<M>& context_;
     const LightTable* lights_;
     LaneKernels kernels_ = best_lane_kernels();
-    LearnedLightsBlock<F, M> learned_;
     std::vector<LightHitGroup> hits_;
     std::vector<std::uint32_t> paths_;  ///< of the hits, as many as their groups have lanes
     std::uint32_t count_ = 0;
     std::vector<float> pdf_area_;  ///< [path]
-};
-template <FeatureSet F, Method M>
-requires(!F.has(Feature::ManyLights)) class LightHits<F, M> {
-public:
-    LightHits(const PathContext<M>&, const LightTable*, std::uint32_t) {}
 };
 
 }  // namespace pl

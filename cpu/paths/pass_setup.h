@@ -12,7 +12,6 @@
 #include "core/kernel/integrator/steps.h"
 #include "core/session/backend.h"
 #include "cpu/base/parallel_for.h"
-#include "cpu/base/uniform_batch.h"
 #include "cpu/paths/light_table.h"
 
 namespace pl {

@@ -16,9 +16,8 @@ namespace pl {
 template <FeatureSet F, Method M, BatchIntersector I, PathWork<F, M> W>
 class PathBatch {
 public:
-    PathBatch(const PassSetup& setup, const I& intersector, const M& method, const W& work,
-              SharedByThreads<M>& shared)
-        : work_(work), hits_(setup.scene, intersector, setup.batch_paths), paths_(setup, method, shared),
+    PathBatch(const PassSetup& setup, const I& intersector, const M& method, const W& work, VolumeLocks& locks)
+        : work_(work), hits_(setup.scene, intersector, setup.batch_paths), paths_(setup, method, locks),
           stores_(kNeedsStore<M> ? setup.batch_paths : 0), ended_((setup.batch_paths + kPathBlock - 1) / kPathBlock) {
     }
 
@@ -28,9 +27,8 @@ public:
         while (active_ > 0) {
             hits_.find_closest(paths_.rows.rays, active_);
             paths_.rows.uniforms.draw(paths_.setup.path, active_);
-            shadows_.clear();
             extend();
-            shadows_.connect(hits_, active_);
+            if constexpr (kHasShadows) shadows_.connect(hits_, active_);
             retire(source);
         }
         paths_.guided.flush();
@@ -38,6 +36,8 @@ public:
     }
 
 private:
+    static constexpr bool kHasShadows = F.has(Feature::NextEventEstimation);
+
     [[gnu::flatten, gnu::noinline]] void fill(PathSource& source) {
         while (active_ < paths_.setup.batch_paths && start(source, active_)) ++active_;
     }
@@ -51,6 +51,7 @@ private:
     }
 
     void extend() {
+        if constexpr (kHasShadows) shadows_.clear();
         vertices_.begin(active_);
         const auto end_of = [this](std::uint32_t first) { return std::min(first + kPathBlock, active_); };
         const bool looks_ahead = TableGuided<M> && paths_.can_look_ahead();
@@ -111,7 +112,7 @@ private:
     std::vector<typename M::Store> stores_;  ///< empty if paths need none
     std::vector<std::uint64_t> ended_;       ///< [block], one bit per path
     Vertices<F, M> vertices_{paths_};
-    [[no_unique_address]] Shadows<F, M> shadows_{paths_};
+    [[no_unique_address]] MemberIf<kHasShadows, Shadows<F, M>> shadows_{paths_};
     std::uint32_t active_ = 0;
 };
 
@@ -119,11 +120,11 @@ private:
 template <FeatureSet F, Method M, BatchIntersector I, PathWork<F, M> W>
 PassCounters run_paths(const PassSetup& setup, const I& intersector, const M& method, const W& work) {
     ChunkQueue queue = setup.chunks(work.count());
-    SharedByThreads<M> shared(method);
+    VolumeLocks locks(guiding_volumes(method));
     std::vector<PassCounters> counters(static_cast<std::size_t>(setup.threads));
     run_on_threads(setup.threads, [&](int thread) {
         PathSource source(queue, work.start_key(setup.path));
-        PathBatch<F, M, I, W> batch(setup, intersector, method, work, shared);
+        PathBatch<F, M, I, W> batch(setup, intersector, method, work, locks);
         counters[static_cast<std::size_t>(thread)] = batch.run(source);
     });
     PassCounters total;

@@ -32,7 +32,7 @@ public:
         count_ = paths_.kernels.pack_shadow_rays(block, lights.groups(), lit, &kept_[first / kGroupSize],
                                                  rays_.ray_groups(), count_);
         if constexpr (F.has(Feature::EnvironmentMap) || F.has(Feature::DeltaLights)) set_lengths(before);
-        if constexpr (!Hookless<M>) tell_method(first, vertices, lights, {reached, lit.bits(), before});
+        if constexpr (!Hookless<M>) tell_method(first, vertices, lights, reached, before);
     }
 
     /// Adds the light samples of the first `active` paths that are not occluded. `hits`: SolidHits.
@@ -51,12 +51,6 @@ public:
     }
 
 private:
-    /// The light samples of a block: the paths that have one, and a shadow ray; the number of its first shadow ray.
-    struct Requests {
-        std::uint64_t reached, lit;
-        std::uint32_t ray;
-    };
-
     /// Rays to far lights, from ray `begin` on, have no end.
     void set_lengths(std::uint32_t begin) {
         for (std::uint32_t ray = begin; ray < count_; ++ray) {
@@ -64,16 +58,18 @@ private:
             group.t_max[ray % kGroupSize] = group.target[ray % kGroupSize] == kNoPrimitive ? kInfinity : 1.0f;
         }
     }
+    /// `reached`: the paths of the block of path `first` that have a light sample; `ray`: the number of its first shadow ray.
     void tell_method(std::uint32_t first, const VertexBlock<F, M>& vertices, const LightBlock<F, M>& lights,
-                     Requests requests) {
-        for_bits(requests.reached, [&](std::uint32_t k) {
-            const bool wanted = ((requests.lit >> k) & 1u) != 0;
+                     std::uint64_t reached, std::uint32_t ray) {
+        const std::uint64_t lit = lit_[first / kPathBlock].bits();
+        for_bits(reached, [&](std::uint32_t k) {
+            const bool wanted = ((lit >> k) & 1u) != 0;
             typename M::Memory none{};
             const typename M::Light light = paths_.method.light_sampled(
                 memory_of(first + k, none), vertices.vertex(k),
                 wanted ? lights.estimate(k, chain_weight(first + k, vertices.is_layered(k))) : LightEstimate{});
             if (wanted)
-                of_method_[requests.ray++] = light;
+                of_method_[ray++] = light;
             else
                 paths_.guided.record_light(light, false);
         });
@@ -112,16 +108,8 @@ private:
     RayBatch rays_;  ///< t_max of those that are not of far lights is 1
     std::uint32_t count_ = 0;
     std::vector<BlockBits> lit_;                ///< [block], the paths that have shadow rays
-    std::vector<LitGroup> kept_;                ///< [group], contributions
+    std::vector<VectorGroup> kept_;             ///< [group], contributions
     std::vector<typename M::Light> of_method_;  ///< [shadow ray]; empty without hooks
-};
-/// Lights are not sampled.
-template <FeatureSet F, Method M>
-requires(!F.has(Feature::NextEventEstimation)) class Shadows<F, M> {
-public:
-    explicit Shadows(Paths<F, M>&) {}
-    void clear() {}
-    void connect(auto&, std::uint32_t) {}
 };
 
 }  // namespace pl

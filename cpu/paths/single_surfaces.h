@@ -81,9 +81,9 @@ private:
     static void count_specular_at(std::uint32_t lane, const PathSettings& settings, PathGroup& paths) {
         PathState<F, DefaultMethod> state;
         state.vertices = paths.vertices[lane];
-        state.specular.vertices = paths.specular[lane];
+        state.specular_vertices = paths.specular[lane];
         count_specular(settings, state);
-        paths.specular[lane] = state.specular.vertices;
+        paths.specular[lane] = state.specular_vertices;
     }
 
     const SceneView& scene_;

@@ -8,14 +8,8 @@
 
 namespace pl {
 
-/// Hooks of a method that has none in lanes.
-template <FeatureSet F, Method M>
-struct TableLearning {
-    explicit TableLearning(Paths<F, M>&) {}
-};
-
-template <FeatureSet F, LaneLearning M>
-class TableLearning<F, M> {
+template <FeatureSet F, class M>
+class TableLearning {
 public:
     explicit TableLearning(Paths<F, M>& paths) : paths_(paths) {}
 

@@ -23,9 +23,8 @@ public:
         }
     }
     /// Shades and scatters the `count` paths from `first` on, a multiple of kPathBlock, and packs their shadow rays. Returns the paths
-    /// that have ended, one bit each.
-    [[gnu::flatten, gnu::noinline]] std::uint64_t extend(std::uint32_t first, std::uint32_t count,
-                                                         Shadows<F, M>& shadows) {
+    /// that have ended, one bit each. `shadows`: Shadows, if lights are sampled.
+    [[gnu::flatten, gnu::noinline]] std::uint64_t extend(std::uint32_t first, std::uint32_t count, auto& shadows) {
         first_ = first;
         block_ = block_of(count);
         vertices_.clear(count);
@@ -244,7 +243,7 @@ private:
         }
     }
     std::uint32_t medium_at(std::uint32_t k) const requires(kTracksMedium<F>) {
-        return paths_.rows.beside(path(k)).medium.material;
+        return paths_.rows.beside(path(k)).medium;
     }
 
     /// Plays roulette at the vertices. Returns the paths that go on.
@@ -358,10 +357,12 @@ private:
     SurfaceBlock surfaces_;        ///< unless the method looks volumes up ahead
     float estimates_[kPathBlock];  ///< of contributions
     SingleSurfaces<F> singles_{paths_.setup.scene};
-    [[no_unique_address]] LightBlock<F, M> lights_{paths_.context, paths_.setup.lights};
-    [[no_unique_address]] LightHits<F, M> light_hits_{paths_.context, paths_.setup.lights, paths_.setup.batch_paths};
+    [[no_unique_address]] MemberIf<F.has(Feature::NextEventEstimation), LightBlock<F, M>> lights_{
+        paths_.context, paths_.setup.lights};
+    [[no_unique_address]] MemberIf<F.has(Feature::ManyLights), LightHits<F, M>> light_hits_{
+        paths_.context, paths_.setup.lights, paths_.setup.batch_paths};
     DirectionBlock<F, M> directions_{paths_.method};
-    [[no_unique_address]] TableLearning<F, M> learning_{paths_};
+    [[no_unique_address]] MemberIf<LaneLearning<M>, TableLearning<F, M>> learning_{paths_};
 };
 
 }  // namespace pl

@@ -50,7 +50,7 @@ template <FeatureSet F>
 class SceneIntersector {
 public:
     __device__ explicit SceneIntersector(const SceneView& scene)
-        : bvh_(scene.bvh), small_(stage(scene.bvh)), instances_(scene) {}
+        : bvh_(scene.bvh), small_(stage(scene.bvh)), instances_(scene.instances) {}
 
     __device__ Hit closest_hit(const Ray& ray) const { return find(ray, false); }
     __device__ bool occluded(const Ray& ray) const { return find(ray, true).found(); }
@@ -58,7 +58,9 @@ public:
 private:
     __device__ Hit find(const Ray& ray, bool any) const {
         Hit best = find_direct(ray, any);
-        instances_.find(ray, any, best);
+        if constexpr (F.has(Feature::Instances)) {
+            if (!instances_.empty()) find_instance_hit(instances_, ray, any, best);
+        }
         return best;
     }
     /// Among the triangles that are in the scene directly.
@@ -72,7 +74,7 @@ private:
 
     const BvhView& bvh_;
     SmallScene small_;
-    [[no_unique_address]] InstancesIf<F.has(Feature::Instances)> instances_;
+    [[no_unique_address]] MemberIf<F.has(Feature::Instances), InstancesView> instances_;
 };
 static_assert(Intersector<SceneIntersector<kEveryFeature>>);
 

@@ -12,8 +12,6 @@ namespace pl::cuda {
 struct MixturesOfThreads {
     using Location = TableLocation;
 
-    static constexpr bool kInLocation = false;
-
     static PL_HD Location locate(const NetworkField&, const TableLocation& place, const SurfacePoint&) {
         return place;
     }

@@ -174,7 +174,7 @@ TEST_CASE("linear files hold the same numbers, and sizes need not be square") {
     const TempDir folder;
     REQUIRE(run_program(render(folder / "x.pfm")).code == 0);
     REQUIRE(run_program(render(folder / "x.exr")).code == 0);
-    const LinearImage pfm = read_pfm(folder / "x.pfm");
+    const LinearImage pfm = read_linear(folder / "x.pfm");
     const LinearImage exr = read_exr(folder / "x.exr");
     CHECK(pfm.width == 24);
     CHECK(pfm.height == 16);
@@ -265,7 +265,7 @@ TEST_CASE("rendering stops at a target error, and 5 tells that another limit cam
     CHECK_THAT(missed.err,
                contains("--target-error: expected noise of at most 1e-09") && contains("--spp was reached"));
     CHECK(stats()["ended_by"] == "spp");
-    CHECK(read_pfm(folder / "x.pfm").width == 32);  // the picture is written in either case
+    CHECK(read_linear(folder / "x.pfm").width == 32);  // the picture is written in either case
     CHECK(run({"--target-error", "1e-9", "--time-limit", "0.1"}).code == 5);
     CHECK(stats()["ended_by"] == "time-limit");
     // Within the target when another limit ends it: not missed. One sample has no halves, so its noise is unknown.
@@ -295,7 +295,7 @@ TEST_CASE("an interruption writes the partial picture, marks it and exits with 1
         else if (name == "x.png")
             CHECK(read_png8(folder / name, &metadata).width == 32);
         else
-            CHECK(read_pfm(folder / name).width == 32);
+            CHECK(read_linear(folder / name).width == 32);
         if (name != "x.pfm") {
             CHECK(metadata_value(metadata, "partial") == "true");
             CHECK(std::stol(metadata_value(metadata, "spp")) >= 1);
@@ -336,7 +336,7 @@ TEST_CASE("any working directory, relative paths, and an OBJ without a camera") 
     const ProgramSetup there{.folder = folder.path()};
     CHECK(run_program({"render", "my scene.obj", "-o", "x.pfm", "--size", "9x9", "--spp", "1"}, there).code == 0);
     // The camera frames it: the middle shows the light.
-    CHECK(read_pfm(folder / "x.pfm").pixels[40].x == 1.0f);
+    CHECK(read_linear(folder / "x.pfm").pixels[40].x == 1.0f);
     CHECK(run_program({"render", "door", "-o", "y.png", "--size", "9x9", "--spp", "1"}, there).code == 0);
     CHECK(run_program({"info", "furnace"}, {.folder = "/"}).code == 0);
     CHECK((folder.names() == std::vector<std::string>{"light.mtl", "my scene.obj", "x.pfm", "y.png"}));

@@ -82,7 +82,7 @@ TEST_CASE("replay: PNG by default, and EXR with the same radiance as PFM") {
     REQUIRE(run_program(replay(folder)).code == 0);
     CHECK(read_png8(folder / "out/frame_0003.png").width == 16);
     for (const std::string kind : {"exr", "pfm"}) REQUIRE(run_program(replay(folder, {"--format", kind})).code == 0);
-    CHECK((read_exr(folder / "out/frame_0003.exr").pixels == read_pfm(folder / "out/frame_0003.pfm").pixels));
+    CHECK((read_exr(folder / "out/frame_0003.exr").pixels == read_linear(folder / "out/frame_0003.pfm").pixels));
     CHECK(names_in(folder / "out").size() == 9);
 }
 
@@ -166,7 +166,7 @@ TEST_CASE("replay: an interruption loses only the frame under way") {
     // All of them, whole, and nothing else.
     const std::vector<std::string> names = names_in(folder / "out");
     CHECK(names.size() == static_cast<std::size_t>(written));
-    for (const std::string& name : names) CHECK(read_pfm(folder / ("out/" + name)).width == 16);
+    for (const std::string& name : names) CHECK(read_linear(folder / ("out/" + name)).width == 16);
 }
 
 TEST_CASE("replay: a frame that cannot be written leaves the old one and those before") {
@@ -178,7 +178,7 @@ TEST_CASE("replay: a frame that cannot be written leaves the old one and those b
     const ProgramResult result = run_program(replay(folder, {"--format", "pfm"}));
     CHECK(result.code == 1);
     CHECK_THAT(result.err, contains("frame_0003.pfm") && contains("cannot be written"));
-    CHECK(read_pfm(folder / "out/frame_0002.pfm").width == 16);
+    CHECK(read_linear(folder / "out/frame_0002.pfm").width == 16);
     CHECK(names_in(folder / "out").size() == 3);
 }
 

@@ -38,7 +38,7 @@ TEST_CASE("the contributions of a traced path add up to the pixel of a picture w
                 joined(joined({"render", "cornell", "-o", picture, "--spp", "1"}, kTracedPicture), settings));
             CAPTURE(rendered.err);
             REQUIRE(rendered.code == 0);
-            const LinearImage image = read_pfm(picture);
+            const LinearImage image = read_linear(picture);
             int lit = 0;
             // The last ones are in a later part of the first pass, guided by the parts before.
             for (const int pixel : {48 * 3 + 5, 48 * 20 + 24, 48 * 25 + 10, 48 * 30 + 40, 48 * 37 + 20}) {

@@ -36,7 +36,7 @@ private:
 
 }  // namespace
 
-Errors errors_of(Pixels picture, const ReferenceHalves& reference) {
+Errors errors_of(Pixels picture, const PictureHalves& reference) {
     const TrimmedErrors all = measure_trimmed(picture, reference, 0.0);
     const TrimmedErrors most = measure_trimmed(picture, reference, 0.001);
     const TrimmedErrors fewer = measure_trimmed(picture, reference, 0.01);

@@ -15,7 +15,7 @@ namespace pl::benchmarks {
 inline constexpr std::array kErrorNames{"mse", "mse_0.1", "mse_1", "relmse", "relmse_0.1", "relmse_1"};
 using Errors = std::array<double, kErrorNames.size()>;
 
-Errors errors_of(Pixels picture, const ReferenceHalves& reference);
+Errors errors_of(Pixels picture, const PictureHalves& reference);
 
 struct Checkpoint {
     std::uint32_t samples = 0;  ///< per pixel
@@ -39,7 +39,7 @@ struct RunLength {
 struct RunSetting {
     std::shared_ptr<const SceneDescription> scene;
     RenderSettings settings;  ///< but for method and seed
-    ReferenceHalves reference;
+    PictureHalves reference;
     RunLength length;
     int threads = 1;
 };

@@ -15,7 +15,7 @@
 #include "core/scene/pack_scene.h"
 #include "core/session/session.h"
 #include "cpu/cpu_backend.h"
-#include "cpu/rays/wide_intersector.h"
+#include "cpu/rays/batch_tracer.h"
 #include "tests/bench/embree_loop.h"
 #include "tests/bench/machine_load.h"
 #include "tests/bench/quartiles.h"

@@ -25,7 +25,7 @@ double trimmed_mean(std::vector<RankedTerm> terms, double left_out) {
 
 }  // namespace
 
-TrimmedErrors measure_trimmed(Pixels picture, const ReferenceHalves& reference, double left_out) {
+TrimmedErrors measure_trimmed(Pixels picture, const PictureHalves& reference, double left_out) {
     std::vector<RankedTerm> squares;
     std::vector<RankedTerm> relative_squares;
     for (std::size_t i = 0; i < picture.size(); ++i) {

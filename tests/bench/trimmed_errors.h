@@ -16,6 +16,6 @@ struct TrimmedErrors {
 /// same as its twins. With them the order differs: theirs leaves out large products, but only positive ones, so that noise in
 /// the reference pulls the rest below the truth. Sorts pixels: for benchmarks, not for pictures that are
 /// measured while they are rendered. Throws as measure_error() does.
-TrimmedErrors measure_trimmed(Pixels picture, const ReferenceHalves& reference, double left_out);
+TrimmedErrors measure_trimmed(Pixels picture, const PictureHalves& reference, double left_out);
 
 }  // namespace pl::benchmarks

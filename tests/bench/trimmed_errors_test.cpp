@@ -21,7 +21,7 @@ TEST_CASE("errors without a share of the pixels: those where each is largest") {
     for (int i = 1; i <= 10; ++i) picture.push_back(Vec3f(static_cast<float>(i)));
     reference[9] = Vec3f(1000.0f);
     picture[9] = Vec3f(1010.0f);
-    const ReferenceHalves same{reference, reference};
+    const PictureHalves same{reference, reference};
     const TrimmedErrors whole = measure_trimmed(picture, same, 0.0);
     CHECK_THAT(whole.mse, WithinRel(385.0 / 10.0, 1e-12));
     CHECK_THAT(whole.mse, WithinRel(measure_error(picture, reference).mse, 1e-12));

@@ -28,7 +28,7 @@ Rendered render(const TempDir& folder, const std::string& scene, const std::stri
                   " -q -t 1 --volumes 100 --bins 64 --backend cpu " + options);
     CAPTURE(result.err);
     REQUIRE(result.code == 0);
-    return {read_pfm(folder / "x.pfm"), json::parse(read_all(folder / "s.json"))};
+    return {read_linear(folder / "x.pfm"), json::parse(read_all(folder / "s.json"))};
 }
 
 const std::vector<std::string> kWays{"--method default", "--method default --nee on", "--method precomputed",

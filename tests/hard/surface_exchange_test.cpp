@@ -25,7 +25,8 @@ public:
         double area = 0.0;
         for (std::uint32_t i = 0; i < scene.triangles.count; ++i) {
             const Triangle& t = scene.triangles[i];
-            const Vec3f cross = triangle_cross(scene.positions[t.v0], scene.positions[t.v1], scene.positions[t.v2]);
+            const Vec3f cross = glm::cross(scene.positions[t.v1] - scene.positions[t.v0],
+                                           scene.positions[t.v2] - scene.positions[t.v0]);
             if (!only || t.material == *only) area += 0.5 * glm::length(Vec3d{cross});
             areas_.push_back(area);
         }
@@ -94,7 +95,8 @@ void check_energy(const SceneDescription& description, std::uint32_t paths, doub
     Vec3d emitted{0.0};
     double area = 0.0;
     for (const Triangle& t : scene.triangles) {
-        const Vec3d cross{triangle_cross(scene.positions[t.v0], scene.positions[t.v1], scene.positions[t.v2])};
+        const Vec3d cross{
+            glm::cross(scene.positions[t.v1] - scene.positions[t.v0], scene.positions[t.v2] - scene.positions[t.v0])};
         emitted += glm::length(cross) * Vec3d{scene.materials[t.material].emission};
         area += glm::length(cross);
     }

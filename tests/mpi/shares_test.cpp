@@ -13,7 +13,7 @@ namespace {
 std::vector<int> times_rendered(const Shares& shares, int ranks, std::uint32_t pixels) {
     std::vector<int> times(pixels);
     for (int rank = 0; rank < ranks; ++rank)
-        for (const PixelRange& range : shares.shares_of(rank))
+        for (const IndexRange& range : shares.shares_of(rank))
             for (std::uint32_t i = range.begin; i < range.end; ++i) ++times[i];
     return times;
 }
@@ -41,9 +41,9 @@ TEST_CASE("Blocks end where the film was covered first") {
     shares.cover(2048);
     shares.cover(1000);
     REQUIRE(shares.blocks() == 2);
-    CHECK(shares.block(0) == PixelRange{0, 1024});
-    CHECK(shares.block(1) == PixelRange{1024, 2048});
-    CHECK(shares.share(1, 1) == PixelRange{1536, 2048});
+    CHECK(shares.block(0) == IndexRange{0, 1024});
+    CHECK(shares.block(1) == IndexRange{1024, 2048});
+    CHECK(shares.share(1, 1) == IndexRange{1536, 2048});
 }
 
 TEST_CASE("A slow share becomes shorter, so that all take the same time") {
@@ -51,8 +51,8 @@ TEST_CASE("A slow share becomes shorter, so that all take the same time") {
     shares.cover(1000);
     // 1 ms per 100 pixels in the first half, 3 ms in the second one.
     const Shares next = shares.balanced(std::vector<double>{5.0e-3, 15.0e-3});
-    CHECK(next.share(0, 0) == PixelRange{0, 666});
-    CHECK(next.share(0, 1) == PixelRange{666, 1000});
+    CHECK(next.share(0, 0) == IndexRange{0, 666});
+    CHECK(next.share(0, 1) == IndexRange{666, 1000});
     CHECK(shares.balanced(std::vector<double>{5.0e-3, 5.1e-3}) == shares);
     CHECK(shares.balanced(std::vector<double>{5.0e-6, 15.0e-6}) == shares);
     const Shares all_first = shares.balanced(std::vector<double>{0.0, 1.0});
@@ -84,9 +84,9 @@ TEST_CASE("The numbers of a subset are shared out by their pixels") {
         for (const std::uint32_t phase : {0u, 1u, 5u}) {
             const PixelSubset subset{.step = step, .phase = phase % step};
             std::uint32_t next = 0;
-            for (const PixelRange pixels :
-                 {PixelRange{0, 13}, PixelRange{13, 13}, PixelRange{13, 500}, PixelRange{500, kPixels}}) {
-                const PixelRange numbers = numbers_within(subset, pixels, kPixels);
+            for (const IndexRange pixels :
+                 {IndexRange{0, 13}, IndexRange{13, 13}, IndexRange{13, 500}, IndexRange{500, kPixels}}) {
+                const IndexRange numbers = numbers_within(subset, pixels, kPixels);
                 REQUIRE(numbers.begin == next);
                 next = numbers.end;
                 for (std::uint32_t i = numbers.begin; i < numbers.end; ++i) {

@@ -224,7 +224,7 @@ inline Decision check_mixture_density() {
         const DirectionSample sample = method.sample_direction({volume}, surface, numbers_of(rng, 1));
         const Vec3f local{glm::dot(sample.wi, frame.x), glm::dot(sample.wi, frame.y), glm::dot(sample.wi, frame.z)};
         if (!is_finite(local)) return {Verdict::Fail, "a sampled direction is not finite"};
-        ++observed[static_cast<std::size_t>(bins.cell_of_direction(local))];
+        ++observed[static_cast<std::size_t>(bins.cell_of(cosine_hemisphere_to_square(local)))];
     }
     return follows_density(observed, expected, 0.012);
 }

@@ -3,7 +3,6 @@
 #include <array>
 #include <vector>
 
-#include <fmt/format.h>
 #include <SDL_keycode.h>
 #include <SDL_scancode.h>
 
@@ -147,13 +146,6 @@ constexpr std::array kMouseActions{
     MouseAction{"drop a file", "open an .obj, .gltf, .glb, .xml or .json scene, or a saved .field"},
 };
 
-/// "F1 or ?" is two keys.
-std::string code(const std::string& keys) {
-    const std::size_t split = keys.find(" or ");
-    if (split == std::string::npos) return fmt::format("`{}`", keys);
-    return fmt::format("`{}` or `{}`", keys.substr(0, split), keys.substr(split + 4));
-}
-
 }  // namespace
 
 std::span<const Action> all_actions() {
@@ -196,20 +188,6 @@ const Action* find_action(const KeyStroke& stroke) {
     for (const Action& action : all_actions())
         if (matches(action, stroke)) return &action;
     return nullptr;
-}
-
-std::string key_table_markdown() {
-    std::string text = "| | key | does |\n| --- | --- | --- |\n";
-    std::string_view group;
-    for (const Action& action : all_actions()) {
-        const std::string_view name = name_of(action.group);
-        text += fmt::format("| {} | {} | {} |\n", group == name ? "" : name, code(action.keys), action.text);
-        group = name;
-    }
-    for (const MouseAction& action : kMouseActions)
-        text += fmt::format("| {} | {} | {} |\n", &action == kMouseActions.data() ? "Mouse" : "", action.keys,
-                            action.text);
-    return text;
 }
 
 }  // namespace pl::ui

@@ -137,7 +137,4 @@ const Action* find_action(const KeyStroke& stroke);
 /// Whether the stroke is one of the action's keys.
 bool matches(const Action& action, const KeyStroke& stroke);
 
-/// The table in Markdown, for the documents.
-std::string key_table_markdown();
-
 }  // namespace pl::ui

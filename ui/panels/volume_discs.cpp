@@ -115,9 +115,8 @@ void draw_cell_tooltip(const VolumeInspection& volume, const std::vector<ShownDi
 
 /// The meaning of the marks.
 void draw_caption(const DiscShape& shape) {
-    faint_text(shape.frame.up_means() == DiscUp::Scene
-                   ? "cross: normal; ring: camera; rim: 90\xc2\xb0; arrow: up"
-                   : "cross: normal; ring: camera; rim: 90\xc2\xb0; arrow: up in the picture");
+    faint_text(shape.frame.up_is_scene() ? "cross: normal; ring: camera; rim: 90\xc2\xb0; arrow: up"
+                                         : "cross: normal; ring: camera; rim: 90\xc2\xb0; arrow: up in the picture");
 }
 
 /// The places of discs in a row, below their captions.

@@ -133,13 +133,6 @@ PL_INLINE Real3<N> normalized(const Real3<N>& v) {
     return scaled(v, 1.0f / N::sqrt(dot(v, v)));
 }
 
-/// Entry of an array of vectors. `index` is below 2^31 / 3.
-template <class N>
-PL_INLINE Real3<N> load_vector(const Vec3f* vectors, const typename N::Int& index) {
-    const auto* floats = static_cast<const float*>(static_cast<const void*>(vectors));
-    const typename N::Int first = 3 * index;
-    return {N::load(floats, first), N::load(floats, first + 1), N::load(floats, first + 2)};
-}
 /// A vector with the value of `v` in every lane.
 template <class N>
 PL_INLINE Real3<N> constant_vector(Vec3f v) {

@@ -1,10 +1,25 @@
-// Lists of types, for code that is compiled once per entry.
+// Lists of types, for code that is compiled once per entry; members that only some instances of a template have.
 #pragma once
 
 #include <type_traits>
 #include <utility>
 
+#include "core/kernel/base/platform.h"
+
 namespace pl {
+
+/// In the place of a T that is not there: made of its arguments, and empty. Several of one T in an object need different tags: objects of
+/// one type have addresses of their own, even if they are empty.
+template <class T, int kTag>
+struct Absent {
+    constexpr Absent() = default;
+    template <class... Arguments>
+    PL_HD constexpr Absent(const Arguments&...) {}
+};
+
+/// The type of a member that is there in some instances of a template alone.
+template <bool kIsThere, class T, int kTag = 0>
+using MemberIf = std::conditional_t<kIsThere, T, Absent<T, kTag>>;
 
 template <class... Types>
 struct TypeList {

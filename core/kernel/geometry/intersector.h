@@ -4,6 +4,7 @@
 #include <concepts>
 
 #include "core/kernel/base/features.h"
+#include "core/kernel/base/type_list.h"
 #include "core/kernel/geometry/bvh_view.h"
 #include "core/kernel/geometry/instance_traversal.h"
 #include "core/kernel/scene/scene_view.h"
@@ -43,27 +44,11 @@ PL_HD_APART void find_instance_hit(const InstancesView& instances, const Ray& ra
     });
 }
 
-/// The instances of a scene, if kernels may meet any; else nothing.
-template <bool kMayHave>
-struct InstancesIf {
-    InstancesView view;
-
-    PL_HD explicit InstancesIf(const SceneView& scene) : view(scene.instances) {}
-    PL_HD void find(const Ray& ray, bool any, Hit& best) const {
-        if (!view.empty()) find_instance_hit(view, ray, any, best);
-    }
-};
-template <>
-struct InstancesIf<false> {
-    PL_HD explicit InstancesIf(const SceneView&) {}
-    PL_HD void find(const Ray&, bool, Hit&) const {}
-};
-
 /// Traverses SceneView::bvh and, for sets of effects with Instances, SceneView::instances.
 template <FeatureSet F>
 class BvhIntersectorOf {
 public:
-    PL_HD explicit BvhIntersectorOf(const SceneView& scene) : bvh_(scene.bvh), instances_(scene) {}
+    PL_HD explicit BvhIntersectorOf(const SceneView& scene) : bvh_(scene.bvh), instances_(scene.instances) {}
 
     PL_HD Hit closest_hit(const Ray& ray) const { return find(ray, false); }
     PL_HD bool occluded(const Ray& ray) const { return find(ray, true).found(); }
@@ -71,12 +56,14 @@ public:
 private:
     PL_HD Hit find(const Ray& ray, bool any) const {
         Hit best = find_hit(bvh_, ray, any);
-        instances_.find(ray, any, best);
+        if constexpr (F.has(Feature::Instances)) {
+            if (!instances_.empty()) find_instance_hit(instances_, ray, any, best);
+        }
         return best;
     }
 
     BvhView bvh_;
-    [[no_unique_address]] InstancesIf<F.has(Feature::Instances)> instances_;
+    [[no_unique_address]] MemberIf<F.has(Feature::Instances), InstancesView> instances_;
 };
 /// For any scene.
 using BvhIntersector = BvhIntersectorOf<kEveryFeature>;

@@ -16,9 +16,9 @@ struct RaySpace {
     Mask along_x, along_y;  ///< whether x or y is the dominant axis; neither: z
 };
 
-/// A corner in ray space, where the ray is the z axis.
+/// A vector of one ray, or of a group of rays in lanes; or a corner in ray space, where the ray is the z axis.
 template <class Real>
-struct RayCorner {
+struct RayVector {
     Real x, y, z;
 };
 
@@ -32,12 +32,6 @@ PL_INLINE void permute_axes(Mask along_x, Mask along_y, Real& x, Real& y, Real& 
     y = py;
     z = pz;
 }
-
-/// A vector of one ray, or of a group of rays in lanes.
-template <class Real>
-struct RayVector {
-    Real x, y, z;
-};
 
 /// `size` holds the magnitudes of the components of `direction`.
 template <class Real, class Mask>
@@ -59,7 +53,7 @@ PL_INLINE RaySpace<Real, Mask> make_ray_space(const RayVector<Real>& origin, Ray
 }
 
 template <class Real, class Mask>
-PL_INLINE RayCorner<Real> to_ray_space(const RaySpace<Real, Mask>& space, Real px, Real py, Real pz) {
+PL_INLINE RayVector<Real> to_ray_space(const RaySpace<Real, Mask>& space, Real px, Real py, Real pz) {
     Real x = px - space.origin_x;
     Real y = py - space.origin_y;
     Real z = pz - space.origin_z;
@@ -70,7 +64,7 @@ PL_INLINE RayCorner<Real> to_ray_space(const RaySpace<Real, Mask>& space, Real p
 /// Edge function: twice the signed area of the triangle of the ray (the origin in x and y) and the edge p -> q.
 /// Bitwise antisymmetric: e(p,q) = -e(q,p).
 template <class Real>
-PL_INLINE Real edge_function(const RayCorner<Real>& p, const RayCorner<Real>& q) {
+PL_INLINE Real edge_function(const RayVector<Real>& p, const RayVector<Real>& q) {
     return p.x * q.y - p.y * q.x;
 }
 
@@ -81,22 +75,22 @@ struct EdgeFunctions {
 };
 
 template <class Real>
-PL_INLINE EdgeFunctions<Real> edge_functions(const RayCorner<Real>& a, const RayCorner<Real>& b,
-                                             const RayCorner<Real>& c) {
+PL_INLINE EdgeFunctions<Real> edge_functions(const RayVector<Real>& a, const RayVector<Real>& b,
+                                             const RayVector<Real>& c) {
     return {edge_function(c, b), edge_function(a, c), edge_function(b, a)};
 }
 
 /// Fallback for edge functions that round to 0: in double the products are exact, so the sign is exact for the
 /// rounded corners, and triangles that share an edge agree on it.
-PL_HD inline float exact_edge_function(const RayCorner<float>& p, const RayCorner<float>& q) {
+PL_HD inline float exact_edge_function(const RayVector<float>& p, const RayVector<float>& q) {
     return static_cast<float>(static_cast<double>(p.x) * static_cast<double>(q.y) -
                               static_cast<double>(p.y) * static_cast<double>(q.x));
 }
 
 /// Distance scaled by the determinant u + v + w: their quotient is the ray parameter t.
 template <class Real>
-PL_INLINE Real scaled_distance(const EdgeFunctions<Real>& e, const RayCorner<Real>& a, const RayCorner<Real>& b,
-                               const RayCorner<Real>& c) {
+PL_INLINE Real scaled_distance(const EdgeFunctions<Real>& e, const RayVector<Real>& a, const RayVector<Real>& b,
+                               const RayVector<Real>& c) {
     return e.u * a.z + e.v * b.z + e.w * c.z;
 }
 

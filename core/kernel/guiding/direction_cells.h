@@ -30,9 +30,6 @@ struct DirectionCells {
     }
     PL_HD int cell_of(Vec2f square) const { return cell_of(unpack(square)); }
 
-    /// Cell of a unit direction with z >= 0, in the volume's frame.
-    PL_HD int cell_of_direction(Vec3f local) const { return cell_of(cosine_hemisphere_to_square(local)); }
-
     /// Point of the unit square at u in [0,1)^2 of a cell. Keeps a gap to the cell's borders, so that its direction, transformed
     /// to the world and back, falls into the same cell.
     PL_HD Vec2f point_in_cell(int cell, Vec2f u) const {

@@ -18,22 +18,6 @@ struct ServedPoint {
     Real3<N> position;
 };
 
-/// A served point with the other parameters of its mixture.
-template <class N>
-struct MixturePoint {
-    ServedPoint<N> served;
-    Real3<N> shading_normal;
-    typename N::Real bsdf_fraction;  ///< a, in (0, 1]
-};
-
-/// A sampled direction with its densities; the lanes of DirectionSample.
-template <class N>
-struct DirectionSampleOf {
-    Real3<N> wi;
-    typename N::Real pdf_sa, bsdf_pdf_sa;
-    typename N::Int bin;
-};
-
 /// The sampling tables of a field with at least one volume, as plain pointers: files that are compiled for one instruction set
 /// must not share inline functions with others.
 struct TableSampler {

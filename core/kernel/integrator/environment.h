@@ -6,12 +6,6 @@
 
 namespace pl {
 
-/// Radiance of the environment in one direction.
-struct FarRadiance {
-    Vec3f radiance{0.0f};
-    float direction_share = 1.0f;  ///< see Observation
-};
-
 /// Balance-heuristic weight of emission in the path's direction; 1 if its last vertex sampled no lights. light_pdf_sa() is the
 /// density of light sampling, per steradian.
 template <FeatureSet F, class M, class Density>
@@ -36,13 +30,14 @@ PL_HD inline Vec3f environment_radiance(const SceneView& scene, [[maybe_unused]]
     return radiance;
 }
 
-/// Adds the radiance of the environment to the path's estimator, weighted where the last vertex sampled far lights.
+/// Adds the radiance of the environment to the path's estimator, weighted where the last vertex sampled far lights. Returns it, and
+/// its share, as an observation of nothing else.
 template <FeatureSet F, class M>
-PL_HD inline FarRadiance add_environment(const SceneView& scene, [[maybe_unused]] const PathSettings& settings,
+PL_HD inline Observation add_environment(const SceneView& scene, [[maybe_unused]] const PathSettings& settings,
                                          PathState<F, M>& state) {
-    FarRadiance far;
-    if constexpr (F.has(Feature::Environment)) far.radiance = scene.environment;
-    state.radiance += state.throughput * far.radiance;
+    Observation far;
+    if constexpr (F.has(Feature::Environment)) far.emitted = scene.environment;
+    state.radiance += state.throughput * far.emitted;
     if constexpr (F.has(Feature::EnvironmentMap)) {
         if (scene.far_lights.empty()) return far;
         const FarDirection<One> direction = far_direction(scene.far_lights, state.ray.direction);
@@ -51,10 +46,10 @@ PL_HD inline FarRadiance add_environment(const SceneView& scene, [[maybe_unused]
         const float weight =
             direction_weight(settings, state, [&] { return scene.far_probability * direction.pdf_sa(); });
         state.radiance += weight * (state.throughput * map);
-        const float constant = rms(far.radiance);
+        const float constant = rms(far.emitted);
         const float varying = rms(map);
         if (varying > 0.0f) far.direction_share = (constant + weight * varying) / (constant + varying);
-        far.radiance += map;
+        far.emitted += map;
     }
     return far;
 }

@@ -66,7 +66,7 @@ PL_HD_INLINED UnweightedLight unweighted_light(const PathContext<M>& context, co
 template <FeatureSet F, Method M>
 PL_HD_INLINED UnweightedLight sample_light(const PathContext<M>& context, const ScatterPoint<F, M>& from, Vec4f u,
                                            const ReceivedWeights& weights) {
-    const LearnedLights learned = learned_lights<F>(context.method, from.vertex).learned();
+    const LearnedLights learned = learned_lights<F>(context.method, from.vertex);
     const DirectLight sample = sample_direct_light<F>(context.scene, from.surface, from.bsdf, u, learned);
     if (!(sample.pdf_sa > 0.0f)) return {};
     return unweighted_light(context, from, sample, shadow_ray_to<F>(from.surface, sample), weights);

@@ -11,7 +11,7 @@ namespace pl {
 template <FeatureSet F, class M>
 PL_HD inline std::uint32_t medium_of([[maybe_unused]] const PathState<F, M>& state) {
     if constexpr (kTracksMedium<F>)
-        return state.medium.material;
+        return state.medium;
     else
         return kNoMedium;
 }
@@ -30,7 +30,7 @@ PL_HD_INLINED void absorb_segment([[maybe_unused]] const SceneView& scene, [[may
                                   [[maybe_unused]] PathState<F, M>& state) {
     if constexpr (kTracksMedium<F>) {
         if (scene.absorption.empty()) return;
-        std::uint32_t& medium = state.medium.material;
+        std::uint32_t& medium = state.medium;
         if (hit.found()) {
             const FlatPrimitive flat = flat_primitive<F>(scene, hit.primitive);
             const bool is_front = glm::dot(flat.plane.normal, -state.ray.direction) >= 0.0f;

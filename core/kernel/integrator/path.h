@@ -6,6 +6,7 @@
 
 #include "core/kernel/base/features.h"
 #include "core/kernel/base/rng.h"
+#include "core/kernel/base/type_list.h"
 #include "core/kernel/film/sample_variance.h"
 #include "core/kernel/film/vertex_sequence.h"
 #include "core/kernel/methods/method.h"
@@ -42,8 +43,6 @@ struct PathContext {
     const PathSettings& settings;
 };
 
-struct Nothing {};
-
 /// The specular chain since the last vertex with a location: mirrors and glass have none and pass radiance on.
 struct SpecularChain {
     Vec3f weight{1.0f};   ///< product of f cos / pdf, and of roulette weights, along the chain
@@ -52,38 +51,13 @@ struct SpecularChain {
     bool is_open = false;  ///< the chain has at least one vertex
 };
 
-/// The specular vertices of a path until it first plays roulette, up to a limit.
-struct SpecularCount {
-    std::uint32_t vertices = 0;
-};
-struct NoSpecularCount {};
-
 /// Whether paths know the glass around them, see medium.h.
 template <FeatureSet F>
 inline constexpr bool kTracksMedium = F.has(Feature::Absorption) && F.has_any(kLobeFeatures);
 
-/// The glass around a path.
-struct PathMedium {
-    std::uint32_t material = kNoMedium;
-};
-struct NoPathMedium {};
-
 /// Whether paths of this method choose lights by the learned irradiance of clusters, in scenes with a light tree.
 template <FeatureSet F, class M>
 inline constexpr bool learns_lights = F.has(Feature::ManyLights) && M::kLearnsLights;
-
-/// The learned choice of lights at a vertex.
-struct LightChoice {
-    LearnedLights lights{};
-
-    PL_HD LearnedLights learned() const { return lights; }
-};
-/// Lights are chosen without learning.
-struct NoLightChoice {
-    PL_HD LearnedLights learned() const { return {}; }
-};
-template <FeatureSet F, class M>
-using LightChoiceOf = std::conditional_t<learns_lights<F, M>, LightChoice, NoLightChoice>;
 
 template <FeatureSet F, class M>
 struct PathState {
@@ -95,13 +69,25 @@ struct PathState {
     std::uint32_t pixel = 0;        ///< or the probe's number
     std::uint32_t sample = 0;
     std::uint32_t vertices = 0;  ///< surface vertices so far, and so the index of the current one's random numbers
-    [[no_unique_address]] std::conditional_t<F.has_any(kLobeFeatures), SpecularChain, Nothing> chain{};
-    [[no_unique_address]] std::conditional_t<F.has_any(kLobeFeatures), SpecularCount, NoSpecularCount> specular{};
-    [[no_unique_address]] std::conditional_t<kTracksMedium<F>, PathMedium, NoPathMedium> medium{};
-    [[no_unique_address]] LightChoiceOf<F, M> lights{};  ///< at the vertex of direction_pdf_sa
+    [[no_unique_address]] MemberIf<F.has_any(kLobeFeatures), SpecularChain> chain{};
+    /// Until the path first plays roulette, up to a limit.
+    [[no_unique_address]] MemberIf<F.has_any(kLobeFeatures), std::uint32_t> specular_vertices{};
+    [[no_unique_address]] MemberIf<kTracksMedium<F>, std::uint32_t, 1> medium{
+        kNoMedium};  ///< material of the glass around it
+    [[no_unique_address]] MemberIf<learns_lights<F, M>, LearnedLights>
+        lights{};  ///< at the vertex of direction_pdf_sa
     [[no_unique_address]] typename M::Memory memory{};
     [[no_unique_address]] typename M::Expectation expectation{};
 };
+
+/// The choice of lights that was learned for the path's last vertex.
+template <FeatureSet F, class M>
+PL_HD inline LearnedLights learned_lights([[maybe_unused]] const PathState<F, M>& state) {
+    if constexpr (learns_lights<F, M>)
+        return state.lights;
+    else
+        return {};
+}
 
 /// Whether the method's Memory has a part outside of the path's state, which the driver of the path provides.
 template <class M>

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/kernel/guiding/reach.h"
+#include "core/kernel/guiding/table_field.h"
 #include "core/kernel/integrator/steps.h"
 #include "core/kernel/methods/default.h"
 
@@ -22,12 +23,6 @@ struct ProbeMethod : DefaultMethod {
     }
 };
 static_assert(Method<ProbeMethod>);
-
-/// The cell that a probe measures.
-struct ProbeTarget {
-    std::int32_t volume;
-    int cell;
-};
 
 /// One of each 2 x 2 cells of every volume. Probes are numbered by quarters, so that those of the first one alone make a coarse map;
 /// within it volume-major, then by cell.
@@ -50,7 +45,8 @@ PL_HD inline std::uint32_t probe_count(const TableView& field) {
     return field.normals.count * static_cast<std::uint32_t>(field.cells.count());
 }
 
-PL_HD inline ProbeTarget probe_target(const TableView& field, std::uint32_t probe) {
+/// The cell that a probe measures.
+PL_HD inline TableEntry probe_target(const TableView& field, std::uint32_t probe) {
     const int side = field.cells.side;
     ProbeQuarter quarter = ProbeQuarter::of(side, 0);
     for (int next = 1; next < 4 && probe >= field.normals.count * quarter.probes_of_volume(); ++next) {
@@ -73,7 +69,7 @@ struct ProbeStratum {
 template <FeatureSet F>
 PL_HD inline PathState<F, ProbeMethod> begin_probe(const TableView& field, std::uint32_t probe, ProbeStratum stratum,
                                                    Vec4f u) {
-    const ProbeTarget target = probe_target(field, probe);
+    const TableEntry target = probe_target(field, probe);
     const Vec2f corner{static_cast<float>(stratum.index % stratum.strata_side),
                        static_cast<float>(stratum.index / stratum.strata_side)};
     const Vec2f in_cell = (corner + Vec2f{u.x, u.y}) * (1.0f / static_cast<float>(stratum.strata_side));
@@ -98,7 +94,7 @@ template <FeatureSet F>
 PL_HD inline void finish_probe(const TableView& field, const PathState<F, ProbeMethod>& state,
                                MethodCounters& counters) {
     constexpr float kWeightPerUnit = 256.0f;  // before the first update there is no mean radiance to be relative to
-    const ProbeTarget target = probe_target(field, state.pixel);
+    const TableEntry target = probe_target(field, state.pixel);
     const float radiance = rms(state.radiance);
     record(field, target.volume, target.cell, radiance);
     counters.clamped_records += is_clamped(radiance, field.radiance_unit) ? 1u : 0u;

@@ -15,7 +15,7 @@ inline constexpr std::uint32_t kMostSpecularBeforeRoulette = 8;
 /// surface that absorbs is the one that a pixel shows, however dark it is.
 template <FeatureSet F, class M>
 PL_HD inline std::uint32_t counted_vertices(const PathState<F, M>& state) {
-    if constexpr (F.has_any(kLobeFeatures)) return state.vertices - state.specular.vertices;
+    if constexpr (F.has_any(kLobeFeatures)) return state.vertices - state.specular_vertices;
     return state.vertices;
 }
 
@@ -23,7 +23,7 @@ PL_HD inline std::uint32_t counted_vertices(const PathState<F, M>& state) {
 template <FeatureSet F, class M>
 PL_HD inline void count_specular(const PathSettings& settings, PathState<F, M>& state) {
     const bool has_played = counted_vertices(state) > settings.roulette_start;
-    if (!has_played && state.specular.vertices < kMostSpecularBeforeRoulette) ++state.specular.vertices;
+    if (!has_played && state.specular_vertices < kMostSpecularBeforeRoulette) ++state.specular_vertices;
 }
 
 /// Survival probability for a contribution estimate. Estimates by a field may be wrong, most of all early: they can keep a path but

@@ -25,10 +25,10 @@ struct StepOutput {
 
 /// The choice of lights that was learned for a vertex.
 template <FeatureSet F, Method M>
-PL_HD inline LightChoiceOf<F, M> learned_lights([[maybe_unused]] const M& method,
-                                                [[maybe_unused]] const typename M::Vertex& vertex) {
+PL_HD inline LearnedLights learned_lights([[maybe_unused]] const M& method,
+                                          [[maybe_unused]] const typename M::Vertex& vertex) {
     if constexpr (learns_lights<F, M>)
-        return {method.learned_lights(vertex)};
+        return method.learned_lights(vertex);
     else
         return {};
 }
@@ -102,7 +102,7 @@ PL_HD_INLINED PathStatus send_path(const M& method, const ScatterPoint<F, M>& fr
     state.throughput *= weight;
     state.ray = spawn_ray(from.surface, direction.wi);
     if constexpr (kTracksMedium<F>)
-        state.medium.material = medium_towards(from.surface, from.bsdf, direction.wi, state.medium.material);
+        state.medium = medium_towards(from.surface, from.bsdf, direction.wi, state.medium);
     if constexpr (F.has_any(kLobeFeatures)) {
         if (from.bsdf.is_specular()) {
             state.chain.weight *= weight;

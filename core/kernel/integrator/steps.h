@@ -100,7 +100,7 @@ struct SurfaceAhead {
     }
     /// See pl::light_pdf_area(), for the origin of the segment. The surface emits light.
     PL_HD float light_pdf_area(const SurfacePoint& surface) const {
-        return pl::light_pdf_area<F>(scene, state.ray.origin, surface, state.lights.learned());
+        return pl::light_pdf_area<F>(scene, state.ray.origin, surface, learned_lights(state));
     }
 };
 
@@ -155,18 +155,11 @@ PL_HD inline typename M::Vertex observe_vertex(const M& method, const SurfacePoi
 template <FeatureSet F, Method M>
 PL_HD inline PathStatus shade_miss(const PathContext<M>& context, PathState<F, M>& state, const StepOutput<M>& out) {
     ++out.counters.escaped;
-    const FarRadiance far = add_environment(context.scene, context.settings, state);
-    const Observation observation{.emitted = far.radiance, .direction_share = far.direction_share};
+    const Observation observation = add_environment(context.scene, context.settings, state);
     out.sample = context.method.observe(state.memory, through_chain(state, observation), typename M::Vertex{},
                                         out.counters.method);
     return PathStatus::Finished;
 }
-
-/// Results of shade_hit(). `from` is valid only if the path continues.
-template <FeatureSet F, class M>
-struct ShadeOutput : StepOutput<M> {
-    ScatterPoint<F, M>& from;
-};
 
 /// Russian roulette at the vertex `from`, by the uniform number `u`. Returns whether the path continues.
 template <FeatureSet F, Method M>
@@ -181,16 +174,16 @@ PL_HD_INLINED PathStatus continue_path(const PathContext<M>& context, float u, P
 }
 
 /// Shades the end of the path's segment: adds emission and calls the observe() of the method. Returns whether the path reaches a
-/// vertex where it may go on. `ahead` has the members of SurfaceAhead; find() is called once if there is a hit.
+/// vertex where it may go on; only then `from` is valid. `ahead` has the members of SurfaceAhead; find() is called once if there is a hit.
 template <FeatureSet F, Method M, class Ahead>
 PL_HD_INLINED PathStatus shade_hit(const PathContext<M>& context, const Hit& hit, const Ahead& ahead,
-                                   PathState<F, M>& state, const ShadeOutput<F, M>& out) {
+                                   PathState<F, M>& state, ScatterPoint<F, M>& from, const StepOutput<M>& out) {
     ++out.counters.segments;
     absorb_segment(context.scene, hit, state);
     if (!hit.found()) return shade_miss(context, state, out);
     const SceneView& scene = context.scene;
-    ahead.find(out.from.surface);
-    const SurfacePoint& surface = out.from.surface;
+    ahead.find(from.surface);
+    const SurfacePoint& surface = from.surface;
     const Bsdf<F> bsdf = make_bsdf<F>(scene, surface, hit_weights(hit), -state.ray.direction);
     const Vec3f emitted = emitted_at<F>(scene, surface, hit_weights(hit));
     float direction_share = 1.0f;
@@ -208,8 +201,8 @@ PL_HD_INLINED PathStatus shade_hit(const PathContext<M>& context, const Hit& hit
         ++out.counters.truncated;
         return terminate_path(context.method, state, out);
     }
-    out.from.bsdf = bsdf;
-    out.from.vertex = vertex;
+    from.bsdf = bsdf;
+    from.vertex = vertex;
     return PathStatus::Continues;
 }
 

@@ -20,8 +20,8 @@ template <FeatureSet F, Method M>
 PL_HD_INLINED PathStatus shade_segment(const PathContext<M>& context, const Hit& hit, PathState<F, M>& state,
                                        SegmentEnd<F, M>& end, PathCounters& counters) {
     end.uniforms = draw_vertex_uniforms<F>(context.settings, state);
-    return shade_hit<F, M>(context, hit, SurfaceAhead<F, M>{context.scene, hit, state}, state,
-                           {{end.sample, counters}, end.from});
+    return shade_hit<F, M>(context, hit, SurfaceAhead<F, M>{context.scene, hit, state}, state, end.from,
+                           {end.sample, counters});
 }
 
 /// Samples a light at the end of a path's segment, if the path may continue there, and then plays the roulette. `shadow` comes in

@@ -44,19 +44,15 @@ PL_INLINE typename N::Real expected_share(const typename N::Real& expected, cons
     return select(static_cast<typename N::Mask>(estimate < kInfinity), estimate, otherwise);
 }
 
-/// Radiance, rms() of its channels, expected to be reflected at the path's first vertex with a location, light samples
-/// included; 0 before it.
-struct GuidedExpectation {
-    float first = 0.0f;
-};
-
 /// q = a p_bsdf + (1-a) p_field; both densities are evaluated, whichever of the two sampled the direction. A direction weighs
 /// at most 1/a times its weight under BSDF sampling.   [Veach 1997, 9.2.4; Mueller et al. 2017]
 /// `Target` makes training samples of a path: targets/expected_sarsa.h, sarsa.h, monte_carlo.h, or frozen.h for none.
 template <GuidingField F, template <class> class Target>
 struct Guided : Target<F> {
     using typename Target<F>::Vertex;
-    using Expectation = GuidedExpectation;
+    /// Radiance, rms() of its channels, expected to be reflected at the path's first vertex with a location, light samples included; 0
+    /// before it.
+    using Expectation = float;
     using Target<F>::field;
     using Target<F>::mixture;
 
@@ -99,12 +95,11 @@ struct Guided : Target<F> {
     /// so roulette does not end it for its throughput, while it ends one into the dark.
     /// [after Vorba and Krivanek 2016, "Adjoint-Driven Russian Roulette and Splitting in Light Transport Simulation"]
     PL_HD float estimate_contribution(const Vertex& vertex, Vec3f albedo, Vec3f throughput, float survival,
-                                      Expectation& expectation) const {
+                                      Expectation& first) const {
         if (!vertex.is_served()) return survival;
         const float expected = rms(throughput * albedo) * field.value_at(vertex);
-        if (expectation.first == 0.0f)
-            expectation.first = expected + rms(throughput * albedo) * field.direct_at(vertex);
-        return expected_share<One>(expected, expectation.first, survival);
+        if (first == 0.0f) first = expected + rms(throughput * albedo) * field.direct_at(vertex);
+        return expected_share<One>(expected, first, survival);
     }
 
     /// The fraction a of the mixture at a served vertex.

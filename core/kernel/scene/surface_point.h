@@ -90,11 +90,6 @@ PL_HD inline FlatPrimitive flat_primitive(const SceneView& scene, std::uint32_t 
     return {corners_of(scene, triangle), scene.planes[primitive], triangle.material};
 }
 
-/// Unnormalized normal; its length is twice the area.
-PL_HD inline Vec3f triangle_cross(Vec3f p0, Vec3f p1, Vec3f p2) {
-    return pack(CornersOf<One>{unpack(p0), unpack(p1), unpack(p2)}.normal());
-}
-
 /// The direction of u on a primitive.
 template <FeatureSet F>
 PL_HD inline TextureAxis texture_axis(const SceneView& scene, std::uint32_t primitive) {

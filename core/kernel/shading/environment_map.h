@@ -63,9 +63,6 @@ PL_INLINE MapPlaceOf<N> map_place(const EnvironmentMap& map, const Real3<N>& wor
     const typename N::Real sine = N::sqrt(direction.x * direction.x + direction.z * direction.z);
     return {{u - N::floor(u), 2.0f * turns_of<N>(sine, direction.y)}, sine};
 }
-PL_HD inline Vec2f map_point(const EnvironmentMap& map, Vec3f direction) {
-    return pack(map_place(map, unpack(direction)).point);
-}
 
 /// Bilinear taps at a point of the image.
 template <class N>

@@ -24,9 +24,6 @@ PL_INLINE typename N::Mask in_sun(const Sun& sun, const Real3<N>& direction) {
 PL_HD inline bool in_sun(const Sun& sun, Vec3f direction) { return in_sun(sun, unpack(direction)); }
 /// Density of sample_sun() per steradian at a direction that is in_sun().
 PL_INLINE float inside_sun_pdf_sa(const Sun& sun) { return kInvPi / sun.chord2; }
-PL_HD inline float sun_pdf_sa(const Sun& sun, Vec3f direction) {
-    return in_sun(sun, direction) ? inside_sun_pdf_sa(sun) : 0.0f;
-}
 
 /// Uniform direction of the disk; u in [0,1)^2. Density: 1 / (pi chord2) per steradian.
 template <class N>

@@ -22,7 +22,7 @@ TEST_CASE("on a wall the scene's up is up, and the disc is seen from in front") 
     // A wall that faces +z, -x or in between: seen against its normal, right is up x normal.
     for (const Vec3f normal : {Vec3f{0, 0, 1}, Vec3f{-1, 0, 0}, glm::normalize(Vec3f{0.3f, 0.4f, -0.9f})}) {
         const DiscFrame frame(normal, camera_looking(-normal));
-        CHECK(frame.up_means() == DiscUp::Scene);
+        CHECK(frame.up_is_scene());
         const Vec3f up = glm::normalize(Vec3f{0, 1, 0} - normal.y * normal);
         check_vector(frame.up(), up);
         check_vector(frame.right(), glm::cross(up, normal));
@@ -39,7 +39,7 @@ TEST_CASE("on floor and ceiling up is up in the picture") {
     for (const float pitch : {-0.5f, 0.0f, 0.5f}) {
         const CameraDescription camera = camera_looking(ahead + Vec3f{0.0f, pitch, 0.0f});
         const DiscFrame floor({0, 1, 0}, camera);
-        CHECK(floor.up_means() == DiscUp::Picture);
+        CHECK_FALSE(floor.up_is_scene());
         check_vector(floor.up(), ahead);
         const DiscFrame ceiling({0, -1, 0}, camera);
         check_vector(ceiling.up(), -ahead);

@@ -64,7 +64,7 @@ TEST_CASE("PFM keeps every bit, from the bottom row up") {
     const TemporaryFolder folder;
     const LinearImage image = noise(width, height);
     write_pfm(folder.path() / "a.pfm", image);
-    CHECK(same_bits(read_pfm(folder.path() / "a.pfm"), image));
+    CHECK(same_bits(read_linear(folder.path() / "a.pfm"), image));
     const std::string bytes = read_file(folder.path() / "a.pfm");
     const std::string header = "PF\n" + std::to_string(width) + " " + std::to_string(height) + "\n-1.0\n";
     REQUIRE(bytes.starts_with(header));
@@ -76,7 +76,7 @@ TEST_CASE("PFM keeps every bit, from the bottom row up") {
 TEST_CASE("PFM of the other byte order") {
     const TemporaryFolder folder;
     const std::string bytes("PF 1 1 1.0\n\x3f\x80\x00\x00\xc0\x00\x00\x00\x00\x00\x00\x00", 23);
-    CHECK(read_pfm(folder.write("a.pfm", bytes)).pixels[0] == glm::vec3(1, -2, 0));
+    CHECK(read_linear(folder.write("a.pfm", bytes)).pixels[0] == glm::vec3(1, -2, 0));
 }
 
 TEST_CASE("PNG keeps every byte and the metadata") {
@@ -134,14 +134,14 @@ TEST_CASE("Files that are no pictures of their kind are refused") {
     const TemporaryFolder folder;
     const std::string path = folder.write("a", "something else entirely").string();
     CHECK_THAT(input_error([&] { read_exr(path); }), contains("not an EXR file"));
-    CHECK_THAT(input_error([&] { read_pfm(path); }), contains("not a PFM file"));
+    CHECK_THAT(input_error([&] { decode_pfm(read_file(path), {.path = path}); }), contains("not a PFM file"));
     CHECK_THAT(input_error([&] { read_png8(path); }), contains("not a PNG file"));
     CHECK_THAT(input_error([&] { read_exr(folder.path() / "gone.exr"); }), contains("no such file"));
-    CHECK_THAT(input_error([&] { read_pfm(folder.write("b", "PF\n100000 100000\n-1\n")); }),
+    CHECK_THAT(input_error([&] { read_linear(folder.write("b", "PF\n100000 100000\n-1\n")); }),
                contains("100000x100000 is not supported"));
-    CHECK_THAT(input_error([&] { read_pfm(folder.write("c", "PF\n-1 2\n-1\n")); }),
+    CHECK_THAT(input_error([&] { read_linear(folder.write("c", "PF\n-1 2\n-1\n")); }),
                contains("-1x2 is not supported"));
-    CHECK_THAT(input_error([&] { read_pfm(folder.write("d", "PF\n1 1\n0\nabcdabcdabcd")); }),
+    CHECK_THAT(input_error([&] { read_linear(folder.write("d", "PF\n1 1\n0\nabcdabcdabcd")); }),
                contains("a scale other than 0"));
 }
 
@@ -155,7 +155,7 @@ TEST_CASE("Truncated pictures are refused at every length") {
     const std::string png = read_file(folder.path() / "whole.png");
     const std::string exr = read_file(folder.path() / "whole.exr");
     for (std::size_t size = 0; size < pfm.size(); ++size) {
-        CHECK_FALSE(loads_or_refuses([&] { read_pfm(folder.write("a.pfm", pfm.substr(0, size))); }));
+        CHECK_FALSE(loads_or_refuses([&] { read_linear(folder.write("a.pfm", pfm.substr(0, size))); }));
     }
     for (std::size_t size = 0; size < png.size(); ++size) {
         // The decoder may do without the closing chunk and checksums, never without the pixels.

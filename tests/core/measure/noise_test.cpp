@@ -107,11 +107,11 @@ TEST_CASE("a picture that has hardly found any light is as noisy as it is") {
 TEST_CASE("threads change no bit of noise, error and parts") {
     const Picture a = noisy(1.0, 0.3, 5), b = noisy(1.0, 0.3, 6), r1 = noisy(1.0, 0.01, 7), r2 = noisy(1.0, 0.01, 8);
     const Noise noise = estimate_noise({a, b}, kNoisySide);
-    const Metrics metrics = measure_error(a, ReferenceHalves{r1, r2});
+    const Metrics metrics = measure_error(a, PictureHalves{r1, r2});
     const ErrorParts parts = take_apart({a, b}, {r1, r2}, kNoisySide);
     for (const int threads : {2, 3, 64}) {
         CHECK(estimate_noise({a, b}, kNoisySide, threads).relmse == noise.relmse);
-        CHECK(measure_error(a, ReferenceHalves{r1, r2}, threads).relmse_trimmed == metrics.relmse_trimmed);
+        CHECK(measure_error(a, PictureHalves{r1, r2}, threads).relmse_trimmed == metrics.relmse_trimmed);
         CHECK(take_apart({a, b}, {r1, r2}, kNoisySide, threads).squared_bias.value == parts.squared_bias.value);
         CHECK(take_apart({a, b}, {r1, r2}, kNoisySide, threads).variance == parts.variance);
     }

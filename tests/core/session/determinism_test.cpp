@@ -3,7 +3,7 @@
 #include "core/kernel/shading/lambert.h"
 #include "core/scene/needed_effects.h"
 #include "core/scene/pack_scene.h"
-#include "cpu/rays/wide_intersector.h"
+#include "cpu/rays/batch_tracer.h"
 #include "tests/core/session/interruption.h"
 #include "tests/support/catch.hpp"
 #include "tests/support/rays/brute_force.h"

@@ -39,7 +39,6 @@ TEST_CASE("Enclosure: inside a box is inside, however its corners are numbered")
     const SceneDescription box = room({-1, -2, -3}, {1, 2, 3});
     for (const SceneDescription& scene : {box, in_pieces(box)}) {
         const Enclosure enclosure(scene);
-        CHECK(enclosure.surface_count() == 1);
         CHECK(enclosure.contains({0.0f, 0.0f, 0.0f}));
         CHECK(enclosure.contains({0.999f, -1.999f, 2.999f}));
         for (const glm::vec3 outside : {glm::vec3{1.001f, 0, 0}, {0, -2.001f, 0}, {0, 0, 1e30f}, {kNan, 0, 0}})
@@ -85,7 +84,6 @@ TEST_CASE("Enclosure: each surface counts alone, and one that is open does not s
     lamp.triangles.resize(2);
     shells = joined(shells, lamp);
     const Enclosure enclosure(shells);
-    CHECK(enclosure.surface_count() == 2);
     CHECK(enclosure.contains(glm::vec3{2.0f, 1.5f, 2.0f}));
     CHECK(enclosure.contains(glm::vec3{0.5f}));
     CHECK_FALSE(enclosure.contains(glm::vec3{-0.5f}));

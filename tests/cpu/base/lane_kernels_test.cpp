@@ -2,7 +2,7 @@
 #include <cstring>
 
 #include "core/kernel/methods/default.h"
-#include "cpu/paths/pass_setup.h"
+#include "cpu/paths/batch_paths.h"
 #include "tests/support/catch.hpp"
 #include "tests/support/same_bits.h"
 #include "tests/support/scenes/shapes.h"
@@ -86,8 +86,8 @@ TEST_CASE("A batch of numbers gives the numbers of a vertex alone") {
     batch.draw(settings, 37);
     for (std::uint32_t i = 0; i < 37; ++i) {
         const VertexUniforms expected = draw_vertex_uniforms<kLights>(settings, states[i]);
-        CHECK(same_bits(batch.uniforms(i).scatter, expected.scatter));
-        CHECK(same_bits(batch.uniforms(i).light, expected.light));
+        CHECK(same_bits(batch.scatter_groups()[i / kGroupSize].get(i % kGroupSize), expected.scatter));
+        CHECK(same_bits(batch.light_groups()[i / kGroupSize].get(i % kGroupSize), expected.light));
     }
 }
 

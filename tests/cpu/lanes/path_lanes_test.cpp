@@ -161,7 +161,7 @@ Played play(const LaneKernels& kernels, const PathSettings& settings, bool with_
             state.throughput = from.throughput.get(lane);
             state.survival = from.survival[lane];
             state.vertices = from.vertices[lane];
-            state.specular.vertices = from.specular[lane];
+            state.specular_vertices = from.specular[lane];
             const Vec3f albedo = block->vertices[i / kGroupSize].albedo.get(lane);
             const float estimate = with_estimates ? estimates[i] : state.survival * max_component(albedo);
             const float u = block->scatter[i / kGroupSize].rows[3][lane];
@@ -269,15 +269,13 @@ int different_shadow_rays(const LaneKernels& kernels) {
                 expected.push_back(ray);
             }
             for (RayGroup& group : rays) std::fill_n(group.t_max, kGroupSize, 1.0f);
-            LitGroup kept[kBlockGroups];
+            VectorGroup kept[kBlockGroups];
             count = kernels.pack_shadow_rays(block->rows(), samples.get(), lit, kept, rays, count);
             different += lit.bits() == wanted && count == expected.size() ? 0 : 1;
             for_bits(wanted, [&](std::uint32_t i) {
                 const std::uint32_t lane = i % kGroupSize;
-                different += same_bits(kept[i / kGroupSize].contribution.get(lane),
-                                       samples[i / kGroupSize].contribution.get(lane))
-                                 ? 0
-                                 : 1;
+                different +=
+                    same_bits(kept[i / kGroupSize].get(lane), samples[i / kGroupSize].contribution.get(lane)) ? 0 : 1;
             });
         }
         for (std::uint32_t i = 0; i < expected.size(); ++i) {
@@ -337,21 +335,21 @@ TEST_CASE("Every instruction set adds light to the paths that see it alone") {
     for (const LaneKernels& kernels : usable_lane_kernels()) {
         INFO(kernels.isa);
         PathGroup paths[kBlockGroups];
-        LitGroup lights[kBlockGroups];
+        VectorGroup lights[kBlockGroups];
         BlockBits lit;
         Uniforms random(6);
         lit.set(0xa50f3c69ffff0001u);
         PathGroup before[kBlockGroups];
         for (std::uint32_t i = 0; i < kPathBlock; ++i) {
             before[i / kGroupSize].radiance.set(i % kGroupSize, random.cube(0.0f, 1.0f));
-            lights[i / kGroupSize].contribution.set(i % kGroupSize, random.cube(0.0f, 1.0f));
+            lights[i / kGroupSize].set(i % kGroupSize, random.cube(0.0f, 1.0f));
         }
         std::memcpy(paths, before, sizeof paths);
         kernels.connect_paths(lights, lit, paths, kBlockGroups);
         for (std::uint32_t i = 0; i < kPathBlock; ++i) {
             const std::uint32_t lane = i % kGroupSize;
             const Vec3f radiance = before[i / kGroupSize].radiance.get(lane);
-            const Vec3f sum = radiance + lights[i / kGroupSize].contribution.get(lane);
+            const Vec3f sum = radiance + lights[i / kGroupSize].get(lane);
             CHECK(paths[i / kGroupSize].radiance.get(lane) == (has(lit.bits(), i) ? sum : radiance));
         }
     }

@@ -1,7 +1,7 @@
 // Embree as an independent peer: rays in general position hit the same triangles, at the same places.
 #if PL_EMBREE_MAJOR > 0
 
-#include "cpu/rays/wide_intersector.h"
+#include "cpu/rays/batch_tracer.h"
 #include "tests/cpu/rays/random_rays.h"
 #include "tests/support/catch.hpp"
 #include "tests/support/peers/embree_scene.h"

@@ -1,7 +1,6 @@
 // Rays meet instances where they meet copies of their meshes, bit by bit and by every instruction set.
-#include "cpu/rays/instance_tracer.h"
+#include "cpu/rays/batch_tracer.h"
 
-#include "cpu/rays/wide_intersector.h"
 #include "tests/support/catch.hpp"
 #include "tests/support/rays/brute_force.h"
 #include "tests/support/scenes/instanced_shapes.h"

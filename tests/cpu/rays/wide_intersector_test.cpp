@@ -1,6 +1,6 @@
 // The wide hierarchy finds the hits of a test of all triangles, bit for bit, by every instruction set, whether rays are
 // traced one by one or in turn.
-#include "cpu/rays/wide_intersector.h"
+#include "cpu/rays/batch_tracer.h"
 
 #include <algorithm>
 #include <limits>

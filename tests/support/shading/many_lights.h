@@ -56,8 +56,8 @@ inline double summed_irradiance(const SceneView& scene, const SurfacePoint& surf
     double sum = 0.0;
     for (std::uint32_t light = 0; light < scene.lights.count; ++light) {
         const Triangle& t = scene.triangles[scene.lights[light].primitive];
-        const float area =
-            0.5f * glm::length(triangle_cross(scene.positions[t.v0], scene.positions[t.v1], scene.positions[t.v2]));
+        const float area = 0.5f * glm::length(glm::cross(scene.positions[t.v1] - scene.positions[t.v0],
+                                                         scene.positions[t.v2] - scene.positions[t.v0]));
         for (int i = 0; i < kSide * kSide; ++i) {
             const Vec2f u = (Vec2f{static_cast<float>(i % kSide), static_cast<float>(i / kSide)} + 0.5f) *
                             (1.0f / static_cast<float>(kSide));

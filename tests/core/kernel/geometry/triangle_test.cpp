@@ -12,7 +12,7 @@ using test::Uniforms;
 
 namespace {
 
-using Corner = RayCorner<float>;
+using Corner = RayVector<float>;
 
 Hit hit_of(const Ray& ray, Vec3f a, Vec3f b, Vec3f c, std::uint32_t primitive = 0, Hit best = {}) {
     intersect_triangle(make_ray_space(ray), a, b, c, primitive, best);

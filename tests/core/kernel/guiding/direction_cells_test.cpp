@@ -22,9 +22,9 @@ TEST_CASE("A point in a cell leads back to the cell through square and hemispher
                 const Vec2f square = cells.point_in_cell(cell, u);
                 REQUIRE(cells.cell_of(square) == cell);
                 const Vec3f local = square_to_cosine_hemisphere(square);
-                REQUIRE(cells.cell_of_direction(local) == cell);
+                REQUIRE(cells.cell_of(cosine_hemisphere_to_square(local)) == cell);
                 const Frame frame = make_frame(random.direction());
-                REQUIRE(cells.cell_of_direction(frame.to_local(frame.to_world(local))) == cell);
+                REQUIRE(cells.cell_of(cosine_hemisphere_to_square(frame.to_local(frame.to_world(local)))) == cell);
             }
         }
     }
@@ -101,8 +101,8 @@ TEST_CASE("Cells are in range for every point of the closed square") {
     // The horizon and the normal.
     const DirectionCells cells{16};
     for (const Vec3f d : {Vec3f{1, 0, 0}, Vec3f{-1, 0, 0}, Vec3f{0, 1, 0}, Vec3f{0, -1, 0}, Vec3f{0, 0, 1}}) {
-        CHECK(cells.cell_of_direction(d) >= 0);
-        CHECK(cells.cell_of_direction(d) < cells.count());
+        CHECK(cells.cell_of(cosine_hemisphere_to_square(d)) >= 0);
+        CHECK(cells.cell_of(cosine_hemisphere_to_square(d)) < cells.count());
     }
 }
 

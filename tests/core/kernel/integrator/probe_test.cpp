@@ -20,7 +20,7 @@ TEST_CASE("Probes measure each cell of each volume once, one of each 2 x 2 cells
         CHECK(coarse == 7u * static_cast<std::uint32_t>((side + 1) / 2 * ((side + 1) / 2)));
         std::vector<int> measured(probes, 0);
         for (std::uint32_t probe = 0; probe < probes; ++probe) {
-            const ProbeTarget target = probe_target(field, probe);
+            const TableEntry target = probe_target(field, probe);
             REQUIRE(target.volume >= 0);
             REQUIRE(target.volume < 7);
             REQUIRE(target.cell >= 0);

@@ -43,8 +43,9 @@ TEST_CASE("Points on lights are chosen by area and luminance and uniformly in ea
     double total = 0.0;
     for (const Light& light : scene.lights) {
         const Triangle& t = scene.triangles[light.primitive];
-        const double area = 0.5 * static_cast<double>(glm::length(triangle_cross(
-                                      scene.positions[t.v0], scene.positions[t.v1], scene.positions[t.v2])));
+        const double area =
+            0.5 * static_cast<double>(glm::length(glm::cross(scene.positions[t.v1] - scene.positions[t.v0],
+                                                             scene.positions[t.v2] - scene.positions[t.v0])));
         const Material& material = scene.materials[t.material];
         total += area * static_cast<double>(light_pdf_area(scene, material));
         for (int part = 0; part < 16; ++part)
