@@ -180,7 +180,8 @@ void play_script(std::vector<ScriptCommand> commands) {
             panels.handle(event);
             input.handle(
                 event, model,
-                {plan.at_image ? image : Rect{}, layout.view, io.WantCaptureMouse, io.WantTextInput, seconds});
+                {place_under(picture_places(plan, image, layout.view), input.pointer()), layout.view,
+                 io.WantCaptureMouse, io.WantTextInput, seconds});
         }
         model.update(seconds);
         model.camera().fly(input.move_keys(), ScriptPlayer::kFrameSeconds);

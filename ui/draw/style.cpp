@@ -74,10 +74,9 @@ void apply_style(float ui_scale) {
     ImGui::GetStyle() = style;
 }
 
-void load_fonts(const std::filesystem::path& font, float ui_scale) {
-    ImFontAtlas& atlas = *ImGui::GetIO().Fonts;
-    atlas.Clear();
-    const float pixels = std::round(kFontPixels * ui_scale);
+namespace {
+
+void add_font(ImFontAtlas& atlas, const std::filesystem::path& font, float pixels) {
     static const ImWchar kRanges[] = {0x0020, 0x00ff, 0x2013, 0x2026, 0x2212, 0x2212, 0x2264, 0x2265, 0};
     std::error_code ignored;
     if (!font.empty() && std::filesystem::is_regular_file(font, ignored)) {
@@ -92,5 +91,15 @@ void load_fonts(const std::filesystem::path& font, float ui_scale) {
     config.SizePixels = pixels;
     atlas.AddFontDefault(&config);
 }
+
+}  // namespace
+
+void load_fonts(const std::filesystem::path& font, float ui_scale) {
+    ImFontAtlas& atlas = *ImGui::GetIO().Fonts;
+    atlas.Clear();
+    for (const float height : {1.0f, kLargeText}) add_font(atlas, font, std::round(kFontPixels * ui_scale * height));
+}
+
+ImFont* large_font() { return ImGui::GetIO().Fonts->Fonts.back(); }
 
 }  // namespace pl::ui

@@ -21,10 +21,14 @@ inline constexpr ImU32 kBadge = IM_COL32(20, 22, 27, 215);
 /// Height of the font in pixels, the unit of all sizes.
 inline constexpr float kFontPixels = 16.0f;
 
+/// Height of large text over that of the font.
+inline constexpr float kLargeText = 1.4f;
+ImFont* large_font();
+
 /// Theme and sizes for a scale of the user interface; 1 is the design size.
 void apply_style(float ui_scale);
 
-/// Fills the font atlas: the given file, or the built-in font if it is missing.
+/// Fills the font atlas, in the font's own and in the large height: the given file, or the built-in font if it is missing.
 void load_fonts(const std::filesystem::path& font, float ui_scale);
 
 /// n times the height of the font.

@@ -221,7 +221,8 @@ bool is_there(const std::filesystem::path& file) {
 
 RememberedWindow::RememberedWindow(std::filesystem::path file, const WindowMemory& first)
     : file_(std::move(file)), last_(first) {
-    if (!file_.empty() && is_there(file_)) {
+    is_new_ = !file_.empty() && !is_there(file_);
+    if (!file_.empty() && !is_new_) {
         try {
             Json document = read_json_file(file_, kWindowMemorySchema);
             last_ = read_members(file_, [&] { return memory_in(document, first, file_); });

@@ -52,6 +52,7 @@ enum class WindowLayout {
 struct WindowRequests {
     bool full_screen = false;
     bool window_shot = false;
+    bool view_shot = false;  ///< the picture with everything that is drawn over it
     bool quit = false;
     bool reset = false;     ///< everything as at a first start
     bool zoom = false;      ///< 1:1 around the pointer, or the whole picture
@@ -61,7 +62,9 @@ struct WindowRequests {
 struct WindowState {
     WindowLayout layout = WindowLayout::Research;
     PanelChoice panels;
+    bool one_side = false;  ///< Layout::one_side of the window now
     bool help = false;
+    bool about = false;
     bool hemisphere = true;                  ///< of the selected volume and the pinned ones, in the picture
     LobeShape lobe_shape = LobeShape::Lobe;  ///< of that
     bool values_shown = false;               ///< something shows values of the picture

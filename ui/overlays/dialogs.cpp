@@ -81,8 +81,21 @@ void draw_help(ViewerModel& model, const Layout& layout) {
         draw_group(ActionGroup::View);
         draw_group(ActionGroup::Overlay);
         draw_group(ActionGroup::File);
+        draw_group(ActionGroup::Help);
         ImGui::EndTable();
     }
+    ImGui::End();
+}
+
+void draw_about(ViewerModel& model, const Layout& layout) {
+    if (!model.window().about) return;
+    ImGui::SetNextWindowFocus();
+    begin_dialog("About pathlight", model.window().about, layout, em(32.0f));
+    text_line("pathlight " PL_VERSION, colors::kAccent);
+    text_line("Renders pictures while it learns from which directions light arrives, beside what happens without.",
+              colors::kText);
+    faint_text("docs/manual.md describes the window and all options, docs/idea.md what is learned and why. LICENSE and "
+               "THIRD-PARTY.md say what may be done with it.");
     ImGui::End();
 }
 
@@ -245,9 +258,12 @@ void draw_field(OpenDialog& dialog) {
     std::array<char, 4096> text{};
     std::snprintf(text.data(), text.size(), "%s", dialog.choice().c_str());
     ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - em(6.5f));
-    const bool entered = ImGui::InputTextWithHint("##choice", "scene, file or folder", text.data(), text.size(),
-                                                  ImGuiInputTextFlags_EnterReturnsTrue);
+    if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
+    const bool entered =
+        ImGui::InputTextWithHint("##choice", "scene, file or folder", text.data(), text.size(),
+                                 ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
     note_place("open: field");
+    if (entered) ImGui::SetKeyboardFocusHere(-1);  // for the next name, if this one opens nothing
     dialog.choice() = text.data();
     ImGui::SameLine();
     if (ImGui::Button("Open", {-1.0f, 0.0f}) || entered) dialog.open(std::string(dialog.choice()));

@@ -167,6 +167,7 @@ void draw_view(ViewerModel& model) {
     int view = static_cast<int>(model.render().settings().view);
     if (choice_row("View", std::string(info_of(model.render().settings().view).summary).c_str(), &view, labels))
         model.render().set_view(all_views()[static_cast<std::size_t>(view)].id);
+    if (is_heat_map(model.render().settings().view)) range_controls(model.display().heat_rule());
     float exposure = model.display().settings().exposure_ev;
     if (slider_row("Exposure", "In stops; display only.", &exposure, {-8.0f, 8.0f, 0.0f, "%+.2f EV"}))
         model.display().set_exposure(exposure);

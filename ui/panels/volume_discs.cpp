@@ -95,29 +95,28 @@ constexpr float kSmallestDiscEm = 2.0f;  ///< in a window with no room for it, t
 constexpr float kGapEm = 0.8f;
 constexpr float kPinEm = 5.0f;  ///< a pinned volume's disc with its ring
 
-void draw_cell_tooltip(const VolumeInspection& volume, const std::vector<ShownDisc>& discs, int cell,
-                       Vec3f direction) {
+/// The numbers of a cell.
+std::string cell_text(const VolumeInspection& volume, const std::vector<ShownDisc>& discs, int cell,
+                      Vec3f direction) {
     const auto index = static_cast<std::size_t>(cell);
     constexpr float kToDeg = 180.0f / kPi;
     const float cosine = std::clamp(glm::dot(direction, volume.normal), -1.0f, 1.0f);
-    ImGui::BeginTooltip();
-    ImGui::Text("cell %d (column %d, row %d)", cell, cell % volume.side, cell / volume.side);
-    ImGui::Text("%.0f\xc2\xb0 from the normal", static_cast<double>(std::acos(cosine) * kToDeg));
-    if (discs.size() > 1)
-        for (const ShownDisc& disc : discs)
-            if (!disc.values.empty()) text_row(disc.caption.c_str(), fmt::format("{:.4g}", disc.values[index]));
-    ImGui::Separator();
-    text_row("radiance Q", fmt::format("{:.4g}", volume.radiance[index]));
-    text_row("probability P", fmt::format("{:.4g}", volume.probability[index]));
-    text_row("visits", fmt::format("{}", volume.visits[index]));
-    ImGui::EndTooltip();
+    std::string text =
+        fmt::format("cell {}, {:.0f}\u00b0 from the normal\n", cell, std::acos(cosine) * kToDeg);
+    for (const ShownDisc& disc : discs)
+        if (!disc.values.empty()) text += fmt::format("{} {}   ", disc.caption, short_value(disc.values[index]));
+    return text + fmt::format("P {}   {} visits", short_value(volume.probability[index]), volume.visits[index]);
 }
 
-/// The meaning of the marks.
-void draw_caption(const DiscShape& shape) {
-    faint_text(shape.frame.up_means() == DiscUp::Scene
-                   ? "cross: normal; ring: camera; rim: 90\xc2\xb0; arrow: up"
-                   : "cross: normal; ring: camera; rim: 90\xc2\xb0; arrow: up in the picture");
+/// The numbers of the cell under the pointer, else the meaning of the marks: in two lines, so that nothing below them moves.
+void draw_caption(const DiscShape& shape, const std::string& cell) {
+    const std::string marks =
+        shape.frame.up_means() == DiscUp::Scene
+            ? "cross: normal; ring: camera\nrim: 90\u00b0; arrow: up"
+            : "cross: normal; ring: camera\nrim: 90\u00b0; arrow: up in the picture";
+    ImGui::TextColored(to_vec4(cell.empty() ? colors::kFaint : colors::kText), "%s",
+                       (cell.empty() ? marks : cell).c_str());
+    note_place("cell numbers");
 }
 
 /// The places of discs in a row, below their captions.
@@ -145,7 +144,7 @@ void draw_pins(ViewerModel& model, const std::vector<ShownVolume>& volumes, cons
         const ImVec2 corner = ImGui::GetCursorScreenPos();
         const std::string name = fmt::format("pin {}", volume.volume);
         if (ImGui::InvisibleButton(name.c_str(), {side, side + em(1.2f)}))
-            model.selection().select_volume(volume.volume);
+            model.selection().select_volume(volume.volume, {volume.position, volume.normal});
         note_place(name.c_str());
         tooltip("A pinned volume, in the color that it has in the picture. A click selects it; K unpins the selected "
                 "one.");
@@ -194,9 +193,8 @@ void draw_volume_discs(ViewerModel& model, const VolumeInspection& volume) {
         list,
         {last.center.x + last.radius + em(kGapEm), last.center.y - last.radius, em(kLegendEm), 2.0f * last.radius},
         range);
-    draw_caption(shape);
+    draw_caption(shape, cell >= 0 ? cell_text(volume, discs, cell, direction) : "");
     draw_pins(model, volumes, range);
-    if (cell >= 0) draw_cell_tooltip(volume, discs, cell, direction);
 }
 
 }  // namespace pl::ui

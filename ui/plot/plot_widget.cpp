@@ -258,7 +258,7 @@ void draw_hover(const AccuracyModel& model, ImDrawList& list, const Rect& frame)
     for (const LinePoint& other : line.points)
         if (other.value.x <= point.value.x) until.push_back({other.value.x, other.value.y});
     const double slope = log_slope(until);
-    ImGui::BeginTooltip();
+    begin_tooltip();
     ImGui::TextColored(to_vec4(to_imgui_color(line.color)), "%s", line.name.c_str());
     ImGui::TextUnformatted(
         fmt::format("{}   {} spp", short_seconds(charged_seconds(measured.clocks)), measured.spp).c_str());
@@ -270,7 +270,7 @@ void draw_hover(const AccuracyModel& model, ImDrawList& list, const Rect& frame)
     if (measured.squared_bias) ImGui::TextUnformatted(bias_text(*measured.squared_bias).c_str());
     if (!line.comparable) ImGui::TextUnformatted("another picture: not compared");
     if (measured.picture == nullptr) ImGui::TextUnformatted("its picture was dropped");
-    ImGui::EndTooltip();
+    end_tooltip();
 }
 
 }  // namespace

@@ -147,8 +147,8 @@ constexpr std::array kValues{
           }},
     Value{"ui_scale", [](const ViewerModel& m) { return fmt::format("{}", m.window().ui_scale); }},
     Value{"layout", [](const ViewerModel& m) { return std::string(name_of(m.window().layout)); }},
-    Value{"settings_panel", [](const ViewerModel& m) { return word(m.window().panels.settings); }},
-    Value{"right_side", [](const ViewerModel& m) { return word(m.window().panels.right); }},
+    Value{"settings_panel", [](const ViewerModel& m) { return word(m.window().panels.shows_settings(m.window().one_side)); }},
+    Value{"right_side", [](const ViewerModel& m) { return word(m.window().panels.shows_right(m.window().one_side)); }},
     Value{"tabs", [](const ViewerModel& m) { return word(m.window().panels.tabs); }},
     Value{"settings_em", [](const ViewerModel& m) { return fmt::format("{:.2f}", m.window().panels.settings_em); }},
     Value{"right_em", [](const ViewerModel& m) { return fmt::format("{:.2f}", m.window().panels.right_em); }},
@@ -164,6 +164,7 @@ constexpr std::array kValues{
               const CameraDescription& now = m.camera().camera();
               return word(now.eye == home.eye && now.target == home.target);
           }},
+    Value{"outside", [](const ViewerModel& m) { return word(m.outside().is_outside()); }},
     Value{"eye", [](const ViewerModel& m) { return comma_text(m.render().settings().camera.eye); }},
     Value{"eye_z", [](const ViewerModel& m) { return fmt::format("{}", m.render().settings().camera.eye.z); }},
     Value{"target", [](const ViewerModel& m) { return comma_text(m.render().settings().camera.target); }},
@@ -232,7 +233,19 @@ constexpr std::array kValues{
           [](const ViewerModel& m) { return fmt::format("{}", m.scene().materials().edited_names().size()); }},
     Value{"scene", [](const ViewerModel& m) { return m.scene().name(); }},
     Value{"tour", [](const ViewerModel& m) { return state_text(m.tour()); }},
+    Value{"tour_seen", [](const ViewerModel& m) { return word(m.tour().is_seen()); }},
+    Value{"lesson", [](const ViewerModel& m) { return lesson_text(m); }},
+    Value{"tells",
+          [](const ViewerModel& m) {
+              const auto& turns = m.link().turns();
+              return turns ? turns_headline(m.comparison().accuracy().table(), *turns,
+                                            m.render().settings().next_event)
+                                 .text
+                           : std::string("none");
+          }},
     Value{"dialog", [](const ViewerModel& m) { return word(m.open_dialog().is_shown()); }},
+    Value{"open_choice", [](const ViewerModel& m) { return m.open_dialog().choice(); }},
+    Value{"typing", [](const ViewerModel&) { return word(ImGui::GetIO().WantTextInput); }},
     Value{"thumbnails", [](const ViewerModel& m) { return fmt::format("{}", m.open_dialog().gallery().shown()); }},
     Value{"folder", [](const ViewerModel& m) { return m.open_dialog().listing().folder.string(); }},
     Value{"knobs", [](const ViewerModel& m) { return knob_text(m.scene().knobs()); }},

@@ -209,6 +209,11 @@ Display::Display(const std::string& title, const WindowOptions& options, const s
     }
     if (!opened) throw Error(ErrorKind::Unavailable, fmt::format("cannot open a window: {}", SDL_GetError()));
     SDL_SetWindowMinimumSize(window_, kLeastWindowWidth, kLeastWindowHeight);
+    if (place_ && knows_positions()) {
+        // Without the borders of the window manager, which are known once it shows the window: it has placed them, not the pixels inside.
+        SDL_PumpEvents();
+        SDL_SetWindowPosition(window_, place_->x, place_->y);
+    }
     if (place_ && place_->maximized) SDL_MaximizeWindow(window_);
     set_window_icon(window_);
 }

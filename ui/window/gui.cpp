@@ -73,19 +73,26 @@ void draw_interface(ViewerModel& model, const Layout& layout, const Rect& image,
         draw_status_bar(model, layout);
         draw_borders(model, layout);
     }
-    if (plan.at_image) draw_flowers(model, image);
-    if (plan.at_image) draw_hemisphere(model, image);
-    if (plan.at_image) draw_gain_marks(model, image);
-    if (plan.at_image) draw_path_lines(model, image);
+    for (const PicturePlace& picture : picture_places(plan, image, layout.view)) {
+        ImDrawList& list = *ImGui::GetBackgroundDrawList();
+        list.PushClipRect({picture.clip.x, picture.clip.y},
+                          {picture.clip.x + picture.clip.width, picture.clip.y + picture.clip.height});
+        draw_flowers(model, picture.place);
+        draw_hemisphere(model, picture.place);
+        draw_gain_marks(model, picture.place);
+        draw_path_lines(model, picture.place);
+        list.PopClipRect();
+    }
     draw_pixels(model, layout, image, plan, magnifier);
     draw_comparison(model, plan);
     if (layout.panels) draw_badges(model, layout, plan);
-    draw_tour(model, layout, common_part(image, layout.view));
+    draw_tour(model, layout, common_part(image, layout.view), plan);
     if (!layout.panels) draw_show_panels(model);
     draw_toasts(model, layout, plan);
     draw_self_test(model, layout);
     draw_open_dialog(model, layout);
     draw_help(model, layout);
+    draw_about(model, layout);
 }
 
 }  // namespace pl::ui

@@ -174,22 +174,6 @@ TEST_CASE("Materials: a file can name the first of each name, and edits of other
     CHECK_FALSE(materials.are_edits_named());
 }
 
-TEST_CASE("Materials: only what moves no volume leaves the selected one") {
-    const MaterialDescription white = with_albedo({}, 0.5f);
-    CHECK_FALSE(may_move_volumes(white, with_albedo(white, 0.7f)));
-    CHECK(may_move_volumes(white, with_albedo(white, 0.0f)));
-    MaterialDescription other = white;
-    other.emission.y = 1.0f;
-    CHECK(may_move_volumes(white, other));
-    other = white;
-    other.kind = SurfaceKind::Plastic;
-    CHECK(may_move_volumes(white, other));
-    CHECK(may_move_volumes(other, with_albedo(other, 0.7f)));
-    other = white;
-    other.textures.albedo = 0;
-    CHECK(may_move_volumes(other, with_albedo(other, 0.7f)));
-}
-
 namespace {
 
 struct MaterialBench : ModelBench {
