@@ -95,6 +95,7 @@ private:
     void wait_for_events();
     void dispatch(const SDL_Event& event);
     WindowActivity activity() const;
+    bool wants_keys(bool is_escape, bool is_tab) const;
     void trace_inputs();
     void build_panels();
     void zoom_to_pixels();
@@ -215,7 +216,7 @@ void Viewer::run() {
         const std::uint64_t serial = model_.frame() != nullptr ? model_.frame()->serial : 0;
         if (!pacing_.needs_redraw(now, serial, activity())) continue;
 
-        gui_.set_scale(model_.window().ui_scale);
+        gui_.set_look(model_.window().ui_scale, model_.window().theme);
         gui_.frame(moved, [this] { build_panels(); });
         answer_requests();
         show();
@@ -263,9 +264,16 @@ void Viewer::dispatch(const SDL_Event& event) {
     const bool is_escape = event.type == SDL_KEYDOWN && event.key.keysym.scancode == SDL_SCANCODE_ESCAPE;
     if (is_escape && !io.WantTextInput && gui_.close_popups()) return;
     input_.handle(event, model_,
-                  {place_under(picture_places(plan_, image_, layout_.view), input_.pointer()), layout_.view, io.WantCaptureMouse,
-                   model_.has_dialog() ? !is_escape : io.WantTextInput,
+                  {place_under(picture_places(plan_, image_, layout_.view), input_.pointer()), layout_.view,
+                   io.WantCaptureMouse, wants_keys(is_escape, is_tab),
                    script_ ? script_->seconds() : steady_seconds() - start_});
+}
+
+/// Whether a dialog, a text field or the panels have the keyboard; Esc and the key of the panels lead out of them.
+bool Viewer::wants_keys(bool is_escape, bool is_tab) const {
+    if (model_.has_dialog()) return !is_escape;
+    if (model_.window().keyed_panel && !ImGui::GetIO().WantTextInput) return !is_escape && !is_tab;
+    return ImGui::GetIO().WantTextInput;
 }
 
 void Viewer::trace_inputs() {

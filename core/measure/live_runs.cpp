@@ -76,7 +76,8 @@ bool LiveRuns::observe(const Session& session, FilmSlot slot, bool is_last) {
     bool changed = origin.generation != generation_ && leave_generation(origin.generation);
     const bool is_measured = slot.view == View::Beauty;
     changed = work_on(is_measured ? origin.number : 0) || changed;
-    changed = (is_measured && is_due(session, slot, origin, is_last) && add_point(session, slot, origin, is_last)) || changed;
+    changed = (is_measured && is_due(session, slot, origin, is_last) && add_point(session, slot, origin, is_last)) ||
+              changed;
     // Points get rare, and viewers show the share of measuring in the charged time.
     const double told = current_->charged_seconds;
     changed = changed || (told > 0.0 && charged_seconds_ > kRenewedAfter * told);
@@ -117,7 +118,8 @@ bool LiveRuns::is_due(const Session& session, FilmSlot slot, const FilmOrigin& o
     track.passes = session.passes(slot);
     const double passing = passing_seconds(session.clocks(slot));
     if (track.passes < kFirstMeasured) return false;
-    if (!is_last && track.passes > kLastMeasured && (passing < track.next_seconds || !budget_.allows(charged_seconds_)))
+    if (!is_last && track.passes > kLastMeasured &&
+        (passing < track.next_seconds || !budget_.allows(charged_seconds_)))
         return false;
     track.next_seconds = passing * kPointRatio;
     return true;

@@ -60,7 +60,7 @@ private:
         double charged_seconds = 0.0;  ///< of the film, included in charged_seconds_
         double next_seconds = 0.0;     ///< of rendering and learning, at which the next point is due
         std::uint32_t passes = 0;
-        std::uint32_t measured = 0;    ///< passes at the last point
+        std::uint32_t measured = 0;  ///< passes at the last point
     };
 
     bool leave_generation(std::uint64_t next);

@@ -83,8 +83,7 @@ void split_right_side(Layout& layout, const Rect& side, float em, const PanelCho
 Layout make_layout(float width, float height, float em, const PanelChoice& asked, bool detail) {
     Layout layout;
     layout.panels = asked.shown;
-    layout.one_side =
-        width - 2.0f * border_pixels(em) < (kSmallestLeftEm + kSmallestViewEm + kSmallestRightEm) * em;
+    layout.one_side = width - 2.0f * border_pixels(em) < (kSmallestLeftEm + kSmallestViewEm + kSmallestRightEm) * em;
     PanelChoice choice = asked;
     choice.settings = asked.shows_settings(layout.one_side);
     choice.right = asked.shows_right(layout.one_side);

@@ -7,14 +7,14 @@ namespace pl::ui {
 
 /// Panels that are open, and their sizes as the user chose them; a size of 0 is automatic.
 struct PanelChoice {
-    bool shown = true;            ///< false hides every panel and bar
-    bool settings = true;         ///< the panel at the left
-    bool right = true;            ///< tabs and accuracy panel
-    bool tabs = true;             ///< open in any case without the accuracy panel
-    bool accuracy = true;         ///< error against time, below the tabs
-    float settings_em = 0.0f;     ///< widths in multiples of the font's height
-    float right_em = 0.0f;        ///< in the same way
-    float accuracy_share = 0.0f;  ///< of the height at the right, in [0, 1]
+    bool shown = true;              ///< false hides every panel and bar
+    bool settings = true;           ///< the panel at the left
+    bool right = true;              ///< tabs and accuracy panel
+    bool tabs = true;               ///< open in any case without the accuracy panel
+    bool accuracy = true;           ///< error against time, below the tabs
+    float settings_em = 0.0f;       ///< widths in multiples of the font's height
+    float right_em = 0.0f;          ///< in the same way
+    float accuracy_share = 0.0f;    ///< of the height at the right, in [0, 1]
     bool prefers_settings = false;  ///< of both sides the one that was opened last, where there is room for one alone
 
     /// Whether a side is visible, and its opening or folding. `one_side`: see Layout.

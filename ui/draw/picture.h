@@ -24,10 +24,10 @@ CellImage tint_cells(const CellImage& cells, std::span<const std::uint32_t> colo
 
 /// Overlay of the radiance volumes' cells.
 struct CellOverlay {
-    std::shared_ptr<const CellImage> cells;       ///< ignored if null or of another size than the picture
-    float opacity = 0.0f;                         ///< of the cells' colors
-    std::optional<std::uint32_t> outlined;        ///< cell_color() of the cell that gets an outline
-    std::shared_ptr<const CellImage> tint{};      ///< blended in place of the cells' own colors; of the same size
+    std::shared_ptr<const CellImage> cells;   ///< ignored if null or of another size than the picture
+    float opacity = 0.0f;                     ///< of the cells' colors
+    std::optional<std::uint32_t> outlined;    ///< cell_color() of the cell that gets an outline
+    std::shared_ptr<const CellImage> tint{};  ///< blended in place of the cells' own colors; of the same size
 
     friend bool operator==(const CellOverlay&, const CellOverlay&) = default;
 };

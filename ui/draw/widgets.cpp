@@ -82,6 +82,7 @@ void begin_fixed_window(const char* name, const Rect& place, int extra_flags) {
                      ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings |
                      ImGuiWindowFlags_NoBringToFrontOnFocus | extra_flags);
     ImGui::PopStyleVar();
+    note_place(name, place);
 }
 
 void fill_fan(ImDrawList& list, std::span<const ImVec2> center_and_border, ImU32 color) {
@@ -134,9 +135,9 @@ void place_tooltip() {
     else if (corner.x >= needed)
         ImGui::SetNextWindowPos({corner.x - gap, y}, ImGuiCond_Always, {1.0f, is_low ? 1.0f : 0.0f});
     else
-        ImGui::SetNextWindowPos({std::clamp(low.x, 0.0f, std::max(screen.x - needed, 0.0f)),
-                                 is_low ? low.y - gap : high.y + gap},
-                                ImGuiCond_Always, {0.0f, is_low ? 1.0f : 0.0f});
+        ImGui::SetNextWindowPos(
+            {std::clamp(low.x, 0.0f, std::max(screen.x - needed, 0.0f)), is_low ? low.y - gap : high.y + gap},
+            ImGuiCond_Always, {0.0f, is_low ? 1.0f : 0.0f});
 }
 
 }  // namespace
@@ -292,8 +293,7 @@ bool choice_row(const char* label, const char* tip, int* index, const std::vecto
 
 void range_controls(RangeRule& rule) {
     bool logarithmic = rule.scale == ColorScale::Logarithmic;
-    if (ImGui::Checkbox("log", &logarithmic))
-        rule.scale = logarithmic ? ColorScale::Logarithmic : ColorScale::Linear;
+    if (ImGui::Checkbox("log", &logarithmic)) rule.scale = logarithmic ? ColorScale::Logarithmic : ColorScale::Linear;
     end_row("log", "Logarithmic colors, over at most three decades.");
     ImGui::SameLine();
     ImGui::SetNextItemWidth(-1.0f);

@@ -77,6 +77,7 @@ enum class ActionId {
     Magnify,
     FollowExposure,
     About,
+    KeyPanels,
     SaveView,
     Cancel,
     Quit,

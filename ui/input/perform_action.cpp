@@ -53,6 +53,26 @@ void toggle_accuracy(WindowState& window) {
     if (!is_seen) panels.toggle_right(window.one_side);
 }
 
+/// The next one that is visible: it is opened where nothing else is.
+void next_keyed_panel(WindowState& window) {
+    window.panels.shown = true;
+    const auto is_open = [&](KeyedPanel panel) {
+        const bool right = window.panels.shows_right(window.one_side);
+        switch (panel) {
+        case KeyedPanel::Menu: return true;
+        case KeyedPanel::Settings: return window.panels.shows_settings(window.one_side);
+        case KeyedPanel::Tabs: return right && (window.panels.tabs || !window.panels.accuracy);
+        case KeyedPanel::Accuracy: return right && window.panels.accuracy;
+        }
+        return false;
+    };
+    constexpr int kPanels = 4;
+    int index = window.keyed_panel ? static_cast<int>(*window.keyed_panel) : 0;
+    do index = (index + 1) % kPanels;
+    while (!is_open(static_cast<KeyedPanel>(index)));
+    window.keyed_panel = static_cast<KeyedPanel>(index);
+}
+
 void switch_layout(WindowState& window) {
     window.layout = window.layout == WindowLayout::Explore ? WindowLayout::Research : WindowLayout::Explore;
 }
@@ -129,6 +149,7 @@ bool perform_display_action(ViewerModel& model, ActionId id) {
     case ActionId::FoldSettings: window.panels.toggle_settings(window.one_side); return true;
     case ActionId::FoldRight: window.panels.toggle_right(window.one_side); return true;
     case ActionId::Help: window.help = !window.help; return true;
+    case ActionId::KeyPanels: next_keyed_panel(window); return true;
     case ActionId::About: window.about = !window.about; return true;
     case ActionId::SwitchLayout: switch_layout(window); return true;
     case ActionId::ResetWindow: window.requests.reset = true; return true;

@@ -87,7 +87,7 @@ void CompareControls::set_turns(bool on) {
     link_.begin_turns(methods);
     if (state_.mode != CompareMode::Flip && state_.mode != CompareMode::SideBySide) set_mode(CompareMode::Split);
     messages_.note(MessageLevel::Info, fmt::format("{} and {} render in turns of equal time",
-                                                  info_of(methods[0]).label, info_of(methods[1]).label));
+                                                   info_of(methods[0]).label, info_of(methods[1]).label));
 }
 
 }  // namespace pl::ui

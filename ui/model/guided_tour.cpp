@@ -13,7 +13,8 @@ enum Step { kSplit, kPick, kDisc, kKnob, kFly, kPays, kStepCount };
 
 constexpr std::array<TourStep, kStepCount> kSteps{{
     {"One scene, two methods, the same time",
-     "Light enters this room through the gap of a door. Both halves of the picture get the same time: the left one by "
+     "Light enters this room through the gap of a door. Both halves of the picture get the same time: the left one "
+     "by "
      "Reinforcement, which learns while it renders, the right one by Default, which does not.",
      "Drag the line between the halves.", "", "split line"},
     {"Where light comes from",
@@ -36,7 +37,7 @@ constexpr std::array<TourStep, kStepCount> kSteps{{
     {"Does learning pay?",
      "Not everywhere. With light samples every vertex also tests a point on a light; then both halves find light "
      "without luck.",
-     "Press L for light samples, and wait until the table has both gains. L again switches back.", "",
+     "Wait until the table has a gain. Then press L for light samples, and wait for the second one.", "",
      "accuracy panel"},
 }};
 
@@ -104,6 +105,7 @@ void GuidedTour::start_step(const ViewerModel& model) {
 void GuidedTour::change_step(ViewerModel& model, int step) {
     if (step_ == kFly && !is_same_view(model.camera().camera(), before_.camera)) model.camera().set(before_.camera);
     step_ = step;
+    if (step_ == kPays) model.render().forget();  // both gains count all that learning costs
     start_step(model);
 }
 

@@ -50,8 +50,7 @@ void OutsideView::update(const std::shared_ptr<const PublishedFrame>& frame) {
     if (!frame || (frame->scene == scene_ && frame->generation == generation_)) return;
     scene_ = frame->scene;
     generation_ = frame->generation;
-    is_outside_ =
-        looks_outside(*scene_, frame->snapshot.camera, frame->snapshot.width, frame->snapshot.height);
+    is_outside_ = looks_outside(*scene_, frame->snapshot.camera, frame->snapshot.width, frame->snapshot.height);
 }
 
 }  // namespace pl::ui

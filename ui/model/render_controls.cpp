@@ -12,8 +12,7 @@ namespace pl::ui {
 
 RenderControls::RenderControls(const ModelServices& services, CameraMotion& camera, const RenderSettings& settings)
     : messages_(services.messages), link_(services.link), worker_(link_.worker()), camera_(camera),
-      settings_(settings), limits_(services.options.limits),
-      previous_method_(baseline_method()) {}
+      settings_(settings), limits_(services.options.limits), previous_method_(baseline_method()) {}
 
 RenderSettings RenderControls::settings() const {
     RenderSettings settings = settings_;

@@ -95,7 +95,9 @@ public:
     /// The window's title.
     std::string title() const;
     /// Whether a dialog lies over the window: it has the keyboard.
-    bool has_dialog() const { return window_.help || window_.about || open_dialog_.is_shown() || self_test_.is_shown(); }
+    bool has_dialog() const {
+        return window_.help || window_.about || open_dialog_.is_shown() || self_test_.is_shown();
+    }
     /// Closes, stops or deselects the topmost of all that can be: the action of Esc.
     void cancel();
 

@@ -22,6 +22,7 @@ class ViewerModel;
 struct WindowMemory {
     std::optional<WindowPlace> place;
     float ui_scale = 0.0f;  ///< 0: by the screen
+    Theme theme = Theme::Dark;
     WindowLayout layout = WindowLayout::Explore;
     PanelChoice panels;  ///< without `shown`: a start never hides all panels
     bool hemisphere = true;

@@ -7,6 +7,7 @@
 #include "ui/draw/layout.h"
 #include "ui/draw/lobes.h"
 #include "ui/draw/picture_zoom.h"
+#include "ui/draw/theme.h"
 #include "ui/plot/plot_view.h"
 
 namespace pl::ui {
@@ -42,6 +43,9 @@ struct PlotState {
     Rect frame;              ///< the rectangle of its curves
 };
 
+/// In the order of the key.
+enum class KeyedPanel { Menu, Settings, Tabs, Accuracy };
+
 /// How much of the settings and displays is shown.
 enum class WindowLayout {
     Explore,   ///< the panels that a newcomer needs
@@ -65,6 +69,8 @@ struct WindowState {
     bool one_side = false;  ///< Layout::one_side of the window now
     bool help = false;
     bool about = false;
+    /// The panel that has the keyboard: arrows move between its controls, Enter and Space use them.
+    std::optional<KeyedPanel> keyed_panel{};
     bool hemisphere = true;                  ///< of the selected volume and the pinned ones, in the picture
     LobeShape lobe_shape = LobeShape::Lobe;  ///< of that
     bool values_shown = false;               ///< something shows values of the picture
@@ -72,6 +78,7 @@ struct WindowState {
     bool magnifier = false;                  ///< beside the pointer
     std::optional<PointedPixel> pointed{};   ///< the pixel under the pointer; empty away from the picture
     float ui_scale = 1.0f;
+    Theme theme = Theme::Dark;
     CellDisplay cell_display;
     PlotState plot;
     WindowRequests requests;

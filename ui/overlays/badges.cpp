@@ -22,6 +22,7 @@ public:
         : list_(*ImGui::GetBackgroundDrawList()), corner_(corner), left_(corner.x), right_(right) {}
 
     void add(const std::string& text, ImU32 color) {
+        gui_memory().badges += text + "; ";
         const ImVec2 pad{em(0.45f), em(0.2f)};
         const ImVec2 size = ImGui::CalcTextSize(text.c_str());
         const float width = size.x + 2.0f * pad.x;
@@ -77,7 +78,8 @@ void add_guiding_badge(BadgeRow& row, const PublishedFrame& frame) {
     if (!guiding->pays)
         row.add("guiding given up" + shared, colors::kWarning);
     else
-        row.add((*guiding->variance_ratio < 1.0 ? "guiding finds light that Default misses" : "guiding pays") + shared,
+        row.add((*guiding->variance_ratio < 1.0 ? "guiding finds light that Default misses" : "guiding pays") +
+                    shared,
                 colors::kGood);
 }
 
@@ -229,6 +231,7 @@ void draw_badges(ViewerModel& model, const Layout& layout, const ComparePlan& pl
     if (is_heat_map(model.render().settings().view)) model.window().values_shown = true;
     const Rect& view = layout.clear;
     // Below a card, which has its place: badges come, go and wrap while pictures render.
+    gui_memory().badges.clear();
     const float top = std::max(gui_memory().top_card_end, view.y) + em(0.6f);
     BadgeRow row({view.x + em(0.6f), top}, view.x + view.width - em(0.6f));
     // Compared pictures have labels of their own.
@@ -274,7 +277,7 @@ float draw_toast(ImDrawList& list, ImVec2 corner, float max_width, MessageLevel 
     const float height = size.y + 2.0f * pad.y;
     const ImVec2 low{corner.x, corner.y - height};
     const ImVec2 high{corner.x + size.x + 2.0f * pad.x, corner.y};
-    list.AddRectFilled(low, high, IM_COL32(28, 31, 38, 240), em(0.2f));
+    list.AddRectFilled(low, high, ImGui::GetColorU32(ImGuiCol_PopupBg, 0.94f), em(0.2f));
     list.AddRectFilled(low, {low.x + em(0.25f), high.y}, stripe_of(level));
     list.AddText(ImGui::GetFont(), ImGui::GetFontSize(), {low.x + pad.x, low.y + pad.y}, colors::kText, text.c_str(),
                  nullptr, wrap);

@@ -27,7 +27,7 @@ void begin_dialog(const char* name, bool& open, const Layout& layout, float widt
     ImGui::SetNextWindowSize({std::min(width, screen.x - em(2.0f)), 0.0f});
     ImGui::Begin(name, &open,
                  ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
-                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav);
+                     ImGuiWindowFlags_NoSavedSettings);
 }
 
 namespace {
@@ -40,8 +40,8 @@ void draw_line(const char* keys, const char* text) {
     const float width = std::max(ImGui::CalcTextSize(keys).x + em(0.6f), em(1.3f));
     const float height = ImGui::GetTextLineHeight();
     ImGui::GetWindowDrawList()->AddRectFilled({corner.x, corner.y - 1.0f},
-                                              {corner.x + width, corner.y + height + 1.0f}, IM_COL32(50, 57, 70, 255),
-                                              em(0.2f));
+                                              {corner.x + width, corner.y + height + 1.0f},
+                                              ImGui::GetColorU32(ImGuiCol_Button), em(0.2f));
     ImGui::SetCursorScreenPos({corner.x + 0.5f * (width - ImGui::CalcTextSize(keys).x), corner.y});
     ImGui::TextColored(to_vec4(colors::kAccent), "%s", keys);
     ImGui::SameLine(em(kKeysEm));
@@ -94,8 +94,9 @@ void draw_about(ViewerModel& model, const Layout& layout) {
     text_line("pathlight " PL_VERSION, colors::kAccent);
     text_line("Renders pictures while it learns from which directions light arrives, beside what happens without.",
               colors::kText);
-    faint_text("docs/manual.md describes the window and all options, docs/idea.md what is learned and why. LICENSE and "
-               "THIRD-PARTY.md say what may be done with it.");
+    faint_text(
+        "docs/manual.md describes the window and all options, docs/idea.md what is learned and why. LICENSE and "
+        "THIRD-PARTY.md say what may be done with it.");
     ImGui::End();
 }
 
@@ -176,11 +177,13 @@ void draw_self_test(ViewerModel& model, const Layout& layout) {
 
 namespace {
 
-/// After a Selectable that a click chooses and a double click opens.
+/// After a Selectable that a click chooses, and that a double click or a key opens.
 void answer_click(OpenDialog& dialog, const std::string& name, bool clicked) {
     if (!clicked) return;
     dialog.choice() = name;
-    if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) dialog.open(name);
+    const bool is_key =
+        !ImGui::IsMouseReleased(ImGuiMouseButton_Left) && !ImGui::IsMouseClicked(ImGuiMouseButton_Left);
+    if (is_key || ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) dialog.open(name);
 }
 
 void draw_choice(OpenDialog& dialog, const std::string& name, const std::string& shown, const char* place) {
@@ -206,7 +209,7 @@ void draw_picture(const std::string& name, const std::shared_ptr<const ByteImage
 
 /// All known scenes, as many in a row as fit.
 void draw_gallery(OpenDialog& dialog, ImVec2 size) {
-    ImGui::BeginChild("scenes", size, true);
+    begin_part("scenes", size);
     const float gap = em(0.6f);
     const float room = ImGui::GetContentRegionAvail().x;
     const int columns = std::max(static_cast<int>((room + gap) / (em(8.0f) + gap)), 1);
@@ -229,7 +232,7 @@ void draw_gallery(OpenDialog& dialog, ImVec2 size) {
 }
 
 void draw_recent(OpenDialog& dialog, const RecentFiles& recent, ImVec2 size) {
-    ImGui::BeginChild("recent", size, true);
+    begin_part("recent", size);
     faint_text("Opened last");
     for (const std::string& name : recent.names()) {
         draw_choice(dialog, name, std::filesystem::path(name).filename().string(), "recent: ");
@@ -239,7 +242,7 @@ void draw_recent(OpenDialog& dialog, const RecentFiles& recent, ImVec2 size) {
 }
 
 void draw_files(OpenDialog& dialog, ImVec2 size) {
-    ImGui::BeginChild("files", size, true);
+    begin_part("files", size);
     const FolderListing& listing = dialog.listing();
     faint_text(listing.folder.string().c_str());
     std::filesystem::path entered;

@@ -22,14 +22,14 @@ Rect place_of(const TourStep& step, const Rect& image) {
     return place != places.end() ? place->second : Rect{};
 }
 
-/// A frame around it, over everything else, that swells gently.
-void draw_frame(const Rect& place) {
+/// A frame around it that swells gently.
+void draw_frame(ImDrawList& list, const Rect& place) {
     if (place.width <= 0.0f || place.height <= 0.0f) return;
     const float phase = 0.5f + 0.5f * std::sin(4.0f * static_cast<float>(ImGui::GetTime()));
     const float margin = em(0.15f + 0.15f * phase);
-    ImGui::GetForegroundDrawList()->AddRect({place.x - margin, place.y - margin},
-                                            {place.x + place.width + margin, place.y + place.height + margin},
-                                            colors::kWarning, em(0.25f), 0, em(0.15f));
+    list.AddRect({place.x - margin, place.y - margin},
+                 {place.x + place.width + margin, place.y + place.height + margin}, colors::kWarning, em(0.25f), 0,
+                 em(0.15f));
 }
 
 bool button(const char* label, const char* place) {
@@ -105,14 +105,21 @@ void draw_card(ViewerModel& model, Phase phase) {
 }
 
 /// A window as wide as text reads well, with an upper or lower edge at `y`. End it with ImGui::End().
-void begin_card(const char* name, const Rect& view, float y, bool is_lower_edge) {
+void begin_card(const char* name, const Rect& view, float y, bool is_lower_edge, ImGuiWindowFlags flags = 0) {
     const float width = std::min(view.width - em(1.2f), em(34.0f));
     ImGui::SetNextWindowPos({view.x + 0.5f * view.width, y}, ImGuiCond_Always, {0.5f, is_lower_edge ? 1.0f : 0.0f});
     ImGui::SetNextWindowSize({width, 0.0f});
     ImGui::SetNextWindowBgAlpha(0.94f);
     ImGui::Begin(name, nullptr,
                  ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
-                     ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoFocusOnAppearing);
+                     ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoFocusOnAppearing | flags);
+}
+
+/// Below compared pictures that leave room there, else above their names.
+float low_card_edge(const Rect& view, const ComparePlan& plan) {
+    const float end = view.y + view.height;
+    const bool has_room = !plan.tiles.empty() && plan.tiles[0].clip.y + plan.tiles[0].clip.height + em(8.0f) < end;
+    return (has_room ? end : std::min(end, top_of_names(plan))) - em(0.6f);
 }
 
 /// Ends the window, and returns its place.
@@ -134,15 +141,20 @@ void draw_tour(ViewerModel& model, const Layout& layout, const Rect& image, cons
     const Rect& view = layout.clear;
     if (phase == Phase::Off || phase == Phase::Offered) {
         if (!model.link().turns() && phase == Phase::Off) return;
-        begin_card("headline", view, std::min(view.y + view.height, top_of_names(plan)) - em(0.6f), true);
+        // Without buttons clicks go through it to the picture.
+        begin_card("headline", view, low_card_edge(view, plan), true,
+                   phase == Phase::Off ? ImGuiWindowFlags_NoInputs : 0);
         if (model.link().turns()) draw_headline(model);
         if (phase == Phase::Offered) draw_offer(model);
         memory.low_card_start = end_card("headline").y;
         return;
     }
     if (phase == Phase::Running && !model.has_dialog()) {
-        const Rect place = place_of(tour_steps()[static_cast<std::size_t>(model.tour().step())], image);
-        draw_frame(place);
+        const TourStep& step = tour_steps()[static_cast<std::size_t>(model.tour().step())];
+        // Over everything else, but the picture's below the card.
+        draw_frame(step.place == TourStep::kPicture ? *ImGui::GetBackgroundDrawList()
+                                                    : *ImGui::GetForegroundDrawList(),
+                   place_of(step, image));
     }
     begin_card("tour", view, view.y + em(0.6f), false);
     draw_card(model, phase);

@@ -37,9 +37,8 @@ void draw_refinement(ViewerModel& model, FieldSettings settings) {
 /// The targets of training samples and the learning rate. Every change restarts pictures and fields.
 void draw_learning_targets(ViewerModel& model, FieldSettings settings) {
     bool changed = choice_row("Learn rate", "Step of an update.", &settings.rate);
-    changed |=
-        choice_row("Learn target", "Of a training sample. Only tables learn from others than the first.",
-                   &settings.learning.target);
+    changed |= choice_row("Learn target", "Of a training sample. Only tables learn from others than the first.",
+                          &settings.learning.target);
     changed |= choice_row("Learn from", "With light samples, what a method learns.", &settings.learning.light);
     if (changed) model.render().set_field(settings);
 }

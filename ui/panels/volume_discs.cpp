@@ -95,27 +95,19 @@ constexpr float kSmallestDiscEm = 2.0f;  ///< in a window with no room for it, t
 constexpr float kGapEm = 0.8f;
 constexpr float kPinEm = 5.0f;  ///< a pinned volume's disc with its ring
 
-/// The numbers of a cell.
-std::string cell_text(const VolumeInspection& volume, const std::vector<ShownDisc>& discs, int cell,
-                      Vec3f direction) {
-    const auto index = static_cast<std::size_t>(cell);
-    constexpr float kToDeg = 180.0f / kPi;
-    const float cosine = std::clamp(glm::dot(direction, volume.normal), -1.0f, 1.0f);
-    std::string text =
-        fmt::format("cell {}, {:.0f}\u00b0 from the normal\n", cell, std::acos(cosine) * kToDeg);
-    for (const ShownDisc& disc : discs)
-        if (!disc.values.empty()) text += fmt::format("{} {}   ", disc.caption, short_value(disc.values[index]));
-    return text + fmt::format("P {}   {} visits", short_value(volume.probability[index]), volume.visits[index]);
-}
-
-/// The numbers of the cell under the pointer, else the meaning of the marks: in two lines, so that nothing below them moves.
-void draw_caption(const DiscShape& shape, const std::string& cell) {
-    const std::string marks =
-        shape.frame.up_means() == DiscUp::Scene
-            ? "cross: normal; ring: camera\nrim: 90\u00b0; arrow: up"
-            : "cross: normal; ring: camera\nrim: 90\u00b0; arrow: up in the picture";
-    ImGui::TextColored(to_vec4(cell.empty() ? colors::kFaint : colors::kText), "%s",
-                       (cell.empty() ? marks : cell).c_str());
+/// The numbers of the cell under the pointer, besides those above the discs; else the meaning of the marks. One line, so that nothing
+/// below it moves.
+void draw_caption(const VolumeInspection& volume, const DiscShape& shape, int cell, Vec3f direction) {
+    const char* const up = shape.frame.up_means() == DiscUp::Scene ? "up" : "up in the picture";
+    std::string text = fmt::format("cross: normal; ring: camera; rim: 90\u00b0; arrow: {}", up);
+    if (cell >= 0) {
+        const auto index = static_cast<std::size_t>(cell);
+        constexpr float kToDeg = 180.0f / kPi;
+        const float cosine = std::clamp(glm::dot(direction, volume.normal), -1.0f, 1.0f);
+        text = fmt::format("cell {}, {:.0f}\u00b0 from the normal, P {}, {} visits", cell, std::acos(cosine) * kToDeg,
+                           short_value(volume.probability[index]), volume.visits[index]);
+    }
+    ImGui::TextColored(to_vec4(cell < 0 ? colors::kFaint : colors::kText), "%s", text.c_str());
     note_place("cell numbers");
 }
 
@@ -181,8 +173,12 @@ void draw_volume_discs(ViewerModel& model, const VolumeInspection& volume) {
     ImDrawList& list = *ImGui::GetWindowDrawList();
     for (std::size_t i = 0; i < discs.size(); ++i) {
         const DiscPlace& place = places[i];
+        const bool has_value = cell >= 0 && !discs[i].values.empty();
+        const std::string caption =
+            discs[i].caption +
+            (has_value ? " " + short_value(discs[i].values[static_cast<std::size_t>(cell)]) : std::string());
         list.AddText({place.center.x - place.radius, place.center.y - place.radius - em(1.7f)}, colors::kText,
-                     discs[i].caption.c_str());
+                     caption.c_str());
         draw_disc(list, place, shape, positions_in(range, discs[i].values), cell);
     }
     const DiscPlace& learned = places.front();
@@ -193,7 +189,7 @@ void draw_volume_discs(ViewerModel& model, const VolumeInspection& volume) {
         list,
         {last.center.x + last.radius + em(kGapEm), last.center.y - last.radius, em(kLegendEm), 2.0f * last.radius},
         range);
-    draw_caption(shape, cell >= 0 ? cell_text(volume, discs, cell, direction) : "");
+    draw_caption(volume, shape, cell, direction);
     draw_pins(model, volumes, range);
 }
 

@@ -83,7 +83,7 @@ void draw_learning_buttons(ViewerModel& model) {
     if (!info_of(model.render().method()).learns) return;
     const bool is_frozen = model.status().field && model.status().field->is_frozen;
     ImGui::AlignTextToFramePadding();
-    if (ImGui::SmallButton(is_frozen ? "continue" : "freeze"))
+    if (ImGui::SmallButton(is_frozen ? "continue###freeze" : "freeze###freeze"))
         model.render().control_learning(is_frozen ? LearningControl::Continue : LearningControl::Freeze);
     note_place("freeze");
     tooltip("Freezes the learned field of all volumes as it is after the present pass; the picture goes on. Or lets "

@@ -65,9 +65,10 @@ void header_cell(const char* title, const char* tip) {
 
 void draw_header(const std::vector<RunColumn>& columns) {
     ImGui::TableNextRow();
-    header_cell("method",
-                "Or what differs from its usual settings. Click on a row to hide or show its curve. Full lines: with light "
-                "samples; dashed: without.");
+    header_cell(
+        "method",
+        "Or what differs from its usual settings. Click on a row to hide or show its curve. Full lines: with light "
+        "samples; dashed: without.");
     for (const RunColumn& column : columns) header_cell(column.title, column.tip);
     header_cell("gain", kGainTip);
 }

@@ -302,7 +302,8 @@ std::string reason_text(const MethodInfo& method, Verdict verdict) {
 }  // namespace
 
 const RunRow* learning_row(const RunTable& table, bool next_event) {
-    return measured_row(table, learning_method(), next_event);
+    const RunRow* const row = measured_row(table, learning_method(), next_event);
+    return row != nullptr && !row->label.warm ? row : nullptr;
 }
 
 std::string ahead_text(const RunRow& row) {
@@ -323,13 +324,13 @@ TurnsHeadline turns_headline(const RunTable& table, const std::array<MethodId, 2
     const char* const own = is_left ? "left" : "right";
     const char* const other = is_left ? "right" : "left";
     const RunRow* const row = measured_row(table, method, next_event);
-    if (row == nullptr)
-        return {fmt::format("Both halves get the same time. Has the {} one less noise?", own), ""};
+    if (row == nullptr) return {fmt::format("Both halves get the same time. Has the {} one less noise?", own), ""};
     const Interval& net = row->gain->net;
     const Verdict verdict = verdict_of(net);
-    const std::string detail = fmt::format(
-        "Measured: for the same noise the {} half would need {} times as long ({} to {}).", other,
-        ratio_text(net.value), ratio_text(net.low), ratio_text(net.high));
+    const std::string detail =
+        fmt::format("Measured{}: for the same noise the {} half would need {} times as long ({} to {}).",
+                    row->label.warm ? ", without the time of earlier learning" : "", other, ratio_text(net.value),
+                    ratio_text(net.low), ratio_text(net.high));
     if (verdict != Verdict::Faster && verdict != Verdict::Slower)
         return {"Same time, and no difference in noise between the halves that is beyond chance.", detail};
     return {fmt::format("Same time, and the {} half is {}: {}.", own, ahead_text(*row),

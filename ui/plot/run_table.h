@@ -74,7 +74,8 @@ struct TurnsHeadline {
 /// `methods`: of the left and the right half.
 TurnsHeadline turns_headline(const RunTable& table, const std::array<MethodId, 2>& methods, bool next_event);
 
-/// The newest row of the method that learns, with or without light samples, if it has a gain with an interval; else null.
+/// The newest row of the method that learns, with or without light samples, if it has a gain with an interval and began with nothing
+/// learned; else null.
 const RunRow* learning_row(const RunTable& table, bool next_event);
 /// "4.5 times ahead", "1.3 times behind", "neither ahead nor behind": by such a row.
 std::string ahead_text(const RunRow& row);

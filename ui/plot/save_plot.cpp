@@ -67,8 +67,8 @@ std::string plot_svg(const AccuracyModel& model) {
     for (const PlotLine& line : model.lines()) {
         if (!is_drawn(line)) continue;
         curves += curve(line, model.view());
-        legend += fmt::format("<path d=\"M{:.0f} {:.0f}h30\" stroke=\"#{:06x}\" stroke-width=\"2\"{}/>\n", kFrame.x, y,
-                              line.color & 0xffffffu, line.is_dashed ? " stroke-dasharray=\"8 5\"" : "") +
+        legend += fmt::format("<path d=\"M{:.0f} {:.0f}h30\" stroke=\"#{:06x}\" stroke-width=\"2\"{}/>\n", kFrame.x,
+                              y, line.color & 0xffffffu, line.is_dashed ? " stroke-dasharray=\"8 5\"" : "") +
                   text_at(kFrame.x + 38.0f, y + 4.0f, "start", line.name);
         y += kLineHeight;
     }
@@ -87,9 +87,9 @@ std::string plot_csv(const AccuracyModel& model) {
         if (run->label.picture != model.picture()) continue;
         for (const LivePoint& point : run->points) {
             const auto relmse = error_of(point, ErrorMetric::RelMse);
-            text += fmt::format("\"{}\",{},{:.9g},{:.9g},{}\n", name_of(run->label), point.spp,
-                                charged_seconds(point.clocks), point.noise,
-                                relmse ? fmt::format("{:.9g}", *relmse) : "");
+            text +=
+                fmt::format("\"{}\",{},{:.9g},{:.9g},{}\n", name_of(run->label), point.spp,
+                            charged_seconds(point.clocks), point.noise, relmse ? fmt::format("{:.9g}", *relmse) : "");
         }
     }
     return text;

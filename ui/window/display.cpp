@@ -139,6 +139,30 @@ std::string opengl_device() {
     return text != nullptr ? reinterpret_cast<const char*>(text) : "";
 }
 
+/// As the desktop sets it for its own text, else by the size of the screen that the X server tells; 0 if neither is known. SDL asks
+/// an extension alone, which some servers and remote desktops lack.
+float x11_dots_per_inch() {
+    void* const library = SDL_LoadObject("libX11.so.6");  // stays loaded: SDL has it, too
+    if (library == nullptr) return 0.0f;
+    const auto open = reinterpret_cast<void* (*)(const char*)>(SDL_LoadFunction(library, "XOpenDisplay"));
+    const auto close = reinterpret_cast<int (*)(void*)>(SDL_LoadFunction(library, "XCloseDisplay"));
+    const auto text =
+        reinterpret_cast<char* (*)(void*, const char*, const char*)>(SDL_LoadFunction(library, "XGetDefault"));
+    const auto pixels = reinterpret_cast<int (*)(void*, int)>(SDL_LoadFunction(library, "XDisplayHeight"));
+    const auto millimeters = reinterpret_cast<int (*)(void*, int)>(SDL_LoadFunction(library, "XDisplayHeightMM"));
+    if (!open || !close || !text || !pixels || !millimeters) return 0.0f;
+    void* const display = open(nullptr);
+    if (display == nullptr) return 0.0f;
+    const char* const wanted = text(display, "Xft", "dpi");
+    const int height_mm = millimeters(display, 0);
+    float density = wanted != nullptr ? std::strtof(wanted, nullptr) : 0.0f;
+    constexpr float kMillimetersPerInch = 25.4f;
+    if (!(density > 0.0f) && height_mm > 0)
+        density = kMillimetersPerInch * static_cast<float>(pixels(display, 0)) / static_cast<float>(height_mm);
+    close(display);
+    return density;
+}
+
 /// The first screen, on which windows open. Drivers that show nothing have none.
 Screen first_screen() {
     const char* driver = SDL_GetCurrentVideoDriver();
@@ -146,7 +170,7 @@ Screen first_screen() {
     if (shows_nothing(driver) || SDL_GetDisplayUsableBounds(0, &usable) != 0) return {};
     Screen screen{.width = usable.w, .height = usable.h};
     // Wayland and macOS enlarge the window themselves, X11 never does.
-    if (std::strcmp(driver, "x11") == 0) SDL_GetDisplayDPI(0, nullptr, &screen.dots_per_inch, nullptr);
+    if (std::strcmp(driver, "x11") == 0) screen.dots_per_inch = x11_dots_per_inch();
     return screen;
 }
 

@@ -1,5 +1,8 @@
 #include "ui/window/gui.h"
 
+#include <array>
+#include <utility>
+
 #include <SDL.h>
 
 #include "core/base/error.h"
@@ -15,7 +18,7 @@ Gui::Gui(const Display& display, std::filesystem::path font, float ui_scale)
         ImGui::DestroyContext();
         throw Error(ErrorKind::Unavailable, "cannot connect the user interface to the window");
     }
-    set_scale(ui_scale);
+    set_look(ui_scale, Theme::Dark);
 }
 
 Gui::~Gui() {
@@ -23,10 +26,12 @@ Gui::~Gui() {
     ImGui::DestroyContext();
 }
 
-void Gui::set_scale(float ui_scale) {
+void Gui::set_look(float ui_scale, Theme theme) {
+    if (ui_scale == scale_ && theme == theme_) return;
+    theme_ = theme;
+    apply_style(ui_scale, theme);
     if (ui_scale == scale_) return;
     scale_ = ui_scale;
-    apply_style(ui_scale);
     load_fonts(font_, ui_scale);
     draw_.upload_fonts();
 }
@@ -63,8 +68,27 @@ void Gui::frame(double delta_seconds, const std::function<void()>& build) {
 
 void Gui::draw() { draw_.draw(*ImGui::GetDrawData()); }
 
+namespace {
+
+/// Lets arrows move between the controls of the chosen panel, or of a dialog.
+void give_keys(const ViewerModel& model) {
+    ImGuiIO& io = ImGui::GetIO();
+    const auto& wanted = model.window().keyed_panel;
+    if (wanted || model.open_dialog().is_shown())
+        io.ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;
+    else
+        io.ConfigFlags &= ~ImGuiConfigFlags_NavEnableKeyboard;
+    const int now = wanted ? static_cast<int>(*wanted) : -1;
+    if (std::exchange(gui_memory().keyed_panel, now) == now) return;
+    constexpr std::array kNames{"menu", "settings", "knowledge", "accuracy"};
+    ImGui::SetWindowFocus(wanted ? kNames[static_cast<std::size_t>(now)] : nullptr);
+}
+
+}  // namespace
+
 void draw_interface(ViewerModel& model, const Layout& layout, const Rect& image, const ComparePlan& plan,
                     const std::optional<PixelPosition>& hovered, const Magnifier* magnifier) {
+    give_keys(model);
     if (layout.panels) {
         draw_menu_bar(model, layout);
         if (layout.left.width > 0.0f) draw_settings_panel(model, layout);

@@ -97,7 +97,7 @@ struct WorkerStatus {
     std::optional<TurnsStatus> turns;  ///< then passes and seconds are those of the first method
     std::uint64_t generation = 0;
     std::uint64_t placement = 0;  ///< changes when numbers of volumes lose their meaning; refinement keeps them
-    std::uint64_t picture = 0;  ///< picture_key() of the film, as RunLabel::picture; 0 while the camera moves
+    std::uint64_t picture = 0;    ///< picture_key() of the film, as RunLabel::picture; 0 while the camera moves
     std::shared_ptr<const SceneDescription> scene;  ///< with the materials as edited; never null
     std::optional<FieldStatus> field;
     std::string backend;                             ///< name of the one in use

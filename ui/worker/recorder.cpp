@@ -36,7 +36,8 @@ std::string details_of(const RenderSettings& settings, MethodId method) {
             fmt::format("refined by {:g}", field.refine_share));
         add(field.rate != usual.rate, fmt::format("rate {}", name_of(field.rate)));
         add(field.learning.target != usual.learning.target, std::string(label_of(field.learning.target)));
-        add(field.learning.light != usual.learning.light, fmt::format("learns {} light", name_of(field.learning.light)));
+        add(field.learning.light != usual.learning.light,
+            fmt::format("learns {} light", name_of(field.learning.light)));
     }
     add(settings.roulette != standard.roulette, fmt::format("roulette {}", name_of(settings.roulette)));
     return text;

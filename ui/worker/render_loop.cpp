@@ -81,8 +81,8 @@ bool RenderLoop::has_work() const {
     if (failed_) return false;
     if (preview_.now() != wanted_preview()) return true;
     const bool size_is_stale = !size_.is_whole() && !is_coarse();
-    return size_is_stale || lacks_last_point() || wants_pass() || frames_.is_asked() || selected_.wants(now_.volume) || wants_pins() ||
-           (now_.cells && !cells_.is_current(*session_));
+    return size_is_stale || lacks_last_point() || wants_pass() || frames_.is_asked() ||
+           selected_.wants(now_.volume) || wants_pins() || (now_.cells && !cells_.is_current(*session_));
 }
 
 /// The picture rests, and its last passes were not measured.

@@ -40,9 +40,9 @@ void RenderLoop::note_placement() {
     const std::shared_ptr<const HostVolumes> volumes = session_->volumes();
     if (volumes == volumes_) return;
     const auto is_same_place = [](const SurfacePoint& a, const SurfacePoint& b) { return a.position == b.position; };
-    const bool keeps_numbers = volumes && volumes_ && volumes->sites.size() >= volumes_->sites.size() &&
-                               std::equal(volumes_->sites.begin(), volumes_->sites.end(), volumes->sites.begin(),
-                                          is_same_place);
+    const bool keeps_numbers =
+        volumes && volumes_ && volumes->sites.size() >= volumes_->sites.size() &&
+        std::equal(volumes_->sites.begin(), volumes_->sites.end(), volumes->sites.begin(), is_same_place);
     if (!keeps_numbers) ++placement_;
     volumes_ = volumes;
 }

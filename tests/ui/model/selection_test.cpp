@@ -50,7 +50,8 @@ TEST_CASE("Pins: frames carry the pinned volumes beside the selected one, and th
     }));
 }
 
-TEST_CASE("Selection: a picked volume is selected, deselected, and found again in another field and another placement") {
+TEST_CASE(
+    "Selection: a picked volume is selected, deselected, and found again in another field and another placement") {
     FileBench bench;
     bench.options.settings.method = MethodId::Reinforcement;
     ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);

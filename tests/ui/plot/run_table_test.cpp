@@ -150,7 +150,8 @@ TEST_CASE("Run table: one sentence on two methods in turns, by the number of the
     Runs runs = two_runs();
     RunTable table = make_run_table(runs, kThisPicture);
     // Without an interval nothing is claimed.
-    CHECK(turns_headline(table, methods, false).text == "Both halves get the same time. Has the left one less noise?");
+    CHECK(turns_headline(table, methods, false).text ==
+          "Both halves get the same time. Has the left one less noise?");
     CHECK(turns_headline(table, methods, false).detail == "");
     RunRow& row = table.rows[1];
     const auto say = [&](double low, double value, double high) {
