@@ -100,7 +100,7 @@ std::vector<Action> actions_after_methods() {
         {KeyPanels,
          Group::Window,
          "Ctrl+Tab",
-         "keyboard into the panels: arrows, Enter and Space; again: the next one; Esc leaves",
+         "keyboard into the panels: arrows and Space; again: the next one; Esc leaves",
          {at(SDL_SCANCODE_TAB, kCtrl)}},
         {FullScreen, Group::Window, "F11", "full screen", {at(SDL_SCANCODE_F11)}},
         {SwitchLayout, Group::Window, "F3", "layout: Explore or Research", {at(SDL_SCANCODE_F3)}},

@@ -177,13 +177,22 @@ void draw_self_test(ViewerModel& model, const Layout& layout) {
 
 namespace {
 
+/// Enter on the control that arrows have reached: newer versions of Dear ImGui count it as a click themselves.
+bool is_entered() {
+#if IMGUI_VERSION_NUM < 18700
+    return ImGui::IsItemFocused() && ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter), false);
+#else
+    return false;
+#endif
+}
+
 /// After a Selectable that a click chooses, and that a double click or a key opens.
 void answer_click(OpenDialog& dialog, const std::string& name, bool clicked) {
-    if (!clicked) return;
+    if (!clicked && !is_entered()) return;
     dialog.choice() = name;
-    const bool is_key =
-        !ImGui::IsMouseReleased(ImGuiMouseButton_Left) && !ImGui::IsMouseClicked(ImGuiMouseButton_Left);
-    if (is_key || ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) dialog.open(name);
+    const bool is_pointer =
+        ImGui::IsMouseReleased(ImGuiMouseButton_Left) || ImGui::IsMouseClicked(ImGuiMouseButton_Left);
+    if (!is_pointer || ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) dialog.open(std::string(name));
 }
 
 void draw_choice(OpenDialog& dialog, const std::string& name, const std::string& shown, const char* place) {
