@@ -84,6 +84,7 @@ void apply_style(float ui_scale, Theme theme) {
     style.ScrollbarRounding = 3.0f;
     style.TabRounding = 3.0f;
     style.WindowBorderSize = 1.0f;
+    style.FrameBorderSize = theme == Theme::Light ? 1.0f : 0.0f;  // white boxes on a light ground
     style.WindowPadding = {10.0f, 10.0f};
     style.FramePadding = {7.0f, 3.0f};
     style.ItemSpacing = {8.0f, 4.0f};

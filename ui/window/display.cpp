@@ -33,7 +33,8 @@ float scale_for(const Screen& screen) {
     const auto height = static_cast<float>(screen.height);
     const float most =
         std::min({screen.dots_per_inch / kDesignDotsPerInch, width / kRoomyWidth, height / kRoomyHeight});
-    return std::clamp(std::floor(2.0f * most) / 2.0f, 1.0f, kMostUiScale);
+    constexpr float kSlack = 0.05f;  // screens tell their size in whole millimeters
+    return std::clamp(std::floor(2.0f * most + kSlack) / 2.0f, 1.0f, kMostUiScale);
 }
 
 int fit(float wanted, float usable) {
