@@ -105,7 +105,7 @@ void GuidedTour::start_step(const ViewerModel& model) {
 void GuidedTour::change_step(ViewerModel& model, int step) {
     if (step_ == kFly && !is_same_view(model.camera().camera(), before_.camera)) model.camera().set(before_.camera);
     step_ = step;
-    if (step_ == kPays) model.render().forget();  // both gains count all that learning costs
+    forgets_ = step_ == kPays;  // both gains count all that learning costs
     start_step(model);
 }
 
@@ -149,6 +149,10 @@ void GuidedTour::update(ViewerModel& model, double seconds) {
     if (!is_in_scene) {
         leave();
         return;
+    }
+    if (forgets_ && !model.camera().is_moving() && is_at_rest(model)) {
+        model.render().forget();
+        forgets_ = false;
     }
     if (!is_done(model))
         done_since_ = -1.0;

@@ -78,6 +78,7 @@ private:
     Before before_;
     double done_since_ = -1.0;  ///< negative: not done
     bool is_seen_ = false;
+    bool forgets_ = false;  ///< as soon as the picture has its full size: coarse passes train the field on no clock
 };
 
 /// What a step has shown, once its task is done: measured where that can be.
