@@ -229,6 +229,7 @@ CommandLine parse_command_line(const std::vector<std::string>& arguments) {
     line.given = std::move(found.given);
     if (line.answer) return line;
     for (const GivenOption& given : line.given) apply_option(*given.spec, line.options, given.text);
+    line.has_scene = !found.scene.empty();
     line.options.scene = found.scene.empty() && line.command == Command::View ? "cornell" : found.scene;
     line.options.inputs = std::move(found.inputs);
     require_complete(line.command, line.options);

@@ -21,6 +21,7 @@ struct CommandLine {
     Command command = Command::View;
     std::vector<GivenOption> given;     ///< in the order of option_table()
     Options options;                    ///< the defaults and the given options; final only after resolve_options()
+    bool has_scene = false;             ///< one was named
     std::optional<std::string> answer;  ///< help, version or a list: print this and do nothing else
 };
 

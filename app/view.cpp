@@ -75,6 +75,13 @@ bool has_size(const CommandLine& line) {
     });
 }
 
+/// Whether the command line asks for no picture of its own.
+bool is_free(const CommandLine& line) {
+    return !line.has_scene && std::ranges::none_of(line.given, [](const GivenOption& given) {
+        return given.spec->print != nullptr || given.spec->name == "load-field";
+    });
+}
+
 /// All members but the functions.
 ui::ViewerOptions viewer_options(const CommandLine& line, const Options& options, const LoadedScene& loaded) {
     ui::ViewerOptions viewer;
@@ -90,6 +97,7 @@ ui::ViewerOptions viewer_options(const CommandLine& line, const Options& options
     if (options.window) viewer.window = {.width = options.window->x, .height = options.window->y};
     viewer.window.ui_scale = options.ui_scale;
     viewer.software = options.software;
+    viewer.is_free = is_free(line);
     viewer.font = find_assets_dir() / "fonts" / "roboto-medium-latin.ttf";
     viewer.remember = options.remember.empty() ? options.script.empty() : options.remember != "off";
     if (viewer.remember) viewer.remember_folder = options.remember;

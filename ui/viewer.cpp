@@ -38,6 +38,20 @@ double thread_seconds() {
     return static_cast<double>(time.tv_sec) + 1.0e-9 * static_cast<double>(time.tv_nsec);
 }
 
+ByteImage part_of(const ByteImage& image, const Rect& place) {
+    const int x = std::clamp(static_cast<int>(place.x), 0, image.width - 1);
+    const int y = std::clamp(static_cast<int>(place.y), 0, image.height - 1);
+    ByteImage part{.width = std::min(static_cast<int>(place.width), image.width - x),
+                   .height = std::min(static_cast<int>(place.height), image.height - y),
+                   .rgb = {}};
+    const auto row = 3 * static_cast<std::size_t>(part.width);
+    for (int line = 0; line < part.height; ++line) {
+        const auto first = image.rgb.begin() + 3 * (static_cast<std::ptrdiff_t>(y + line) * image.width + x);
+        part.rgb.insert(part.rgb.end(), first, first + static_cast<std::ptrdiff_t>(row));
+    }
+    return part;
+}
+
 /// Empty: nothing is remembered.
 std::filesystem::path memory_file(const ViewerOptions& options) {
     if (!options.remember) return "";
@@ -81,6 +95,7 @@ private:
     void wait_for_events();
     void dispatch(const SDL_Event& event);
     WindowActivity activity() const;
+    bool wants_keys(bool is_escape, bool is_tab) const;
     void trace_inputs();
     void build_panels();
     void zoom_to_pixels();
@@ -91,6 +106,8 @@ private:
     WindowMemory memory_now() const;
     void reset_window();
     void set_folders(const std::filesystem::path& folder);
+    bool is_first_look() const { return options_.is_free && memory_.is_new(); }
+    void show_learning();
     Layout current_layout() const;
     RenderSettings first_settings(const SceneDescription& scene) const;
 
@@ -125,11 +142,19 @@ Viewer::Viewer(const ViewerOptions& options, std::shared_ptr<const SceneDescript
     if (const auto file = memory_file(options); !file.empty()) set_folders(file.parent_path());
     if (!memory_.problem().empty()) model_.messages().say(MessageLevel::Warning, memory_.problem());
     model_.window().ui_scale = display_.ui_scale();
-    if (options.remember && !options.script) model_.tour().offer();
+    if (options.remember && (!options.script || is_first_look())) model_.tour().offer();
+    if (is_first_look()) show_learning();
     if (options.script) script_.emplace(load_script(*options.script), display_.window());
     if (options.ui_trace) trace_.emplace(*options.ui_trace);
     layout_ = current_layout();
     image_ = image_layer_.place(model_, layout_.view);
+}
+
+/// Learning beside what happens without it, where it shows: without light samples, and bright.
+void Viewer::show_learning() {
+    constexpr float kBright = 1.25f;  // stops: the Cornell box is dark at 0
+    model_.display().set_exposure(kBright);
+    model_.comparison().set_turns(true);
 }
 
 /// The folders remembered beside the window's state.
@@ -150,6 +175,10 @@ Layout Viewer::current_layout() const {
 RenderSettings Viewer::first_settings(const SceneDescription& scene) const {
     RenderSettings settings = options_.settings;
     if (options_.camera_from_scene) settings.camera = scene.camera;
+    if (is_first_look()) {
+        settings.method = learning_method();
+        settings.next_event = false;
+    }
     if (options_.size_from_window) {
         int width = 0;
         int height = 0;
@@ -181,13 +210,13 @@ void Viewer::run() {
         while (SDL_PollEvent(&event) != 0) dispatch(event);
         model_.update(now - start_);
         const double moved = script_ ? ScriptPlayer::kFrameSeconds : std::min(delta, kLongestDelta);
-        model_.camera().fly(input_.move_keys(), moved);
+        model_.camera().fly(model_.has_dialog() ? MoveKeys{} : input_.move_keys(), moved);
         trace_inputs();
         memory_.update(memory_now(), now - start_, model_.messages());
         const std::uint64_t serial = model_.frame() != nullptr ? model_.frame()->serial : 0;
         if (!pacing_.needs_redraw(now, serial, activity())) continue;
 
-        gui_.set_scale(model_.window().ui_scale);
+        gui_.set_look(model_.window().ui_scale, model_.window().theme);
         gui_.frame(moved, [this] { build_panels(); });
         answer_requests();
         show();
@@ -235,8 +264,16 @@ void Viewer::dispatch(const SDL_Event& event) {
     const bool is_escape = event.type == SDL_KEYDOWN && event.key.keysym.scancode == SDL_SCANCODE_ESCAPE;
     if (is_escape && !io.WantTextInput && gui_.close_popups()) return;
     input_.handle(event, model_,
-                  {plan_.at_image ? image_ : Rect{}, layout_.view, io.WantCaptureMouse, io.WantTextInput,
+                  {place_under(picture_places(plan_, image_, layout_.view), input_.pointer()), layout_.view,
+                   io.WantCaptureMouse, wants_keys(is_escape, is_tab),
                    script_ ? script_->seconds() : steady_seconds() - start_});
+}
+
+/// Whether a dialog, a text field or the panels have the keyboard; Esc and the key of the panels lead out of them.
+bool Viewer::wants_keys(bool is_escape, bool is_tab) const {
+    if (model_.has_dialog()) return !is_escape;
+    if (model_.window().keyed_panel && !ImGui::GetIO().WantTextInput) return !is_escape && !is_tab;
+    return ImGui::GetIO().WantTextInput;
 }
 
 void Viewer::trace_inputs() {
@@ -248,6 +285,7 @@ void Viewer::trace_inputs() {
 
 void Viewer::build_panels() {
     layout_ = current_layout();
+    model_.window().one_side = layout_.one_side;
     if (std::exchange(model_.window().requests.zoom, false)) zoom_to_pixels();
     image_ = image_layer_.place(model_, layout_.view);
     plan_ = model_.comparison().plan(layout_.view, model_.window().zoom);
@@ -279,10 +317,10 @@ void Viewer::point_at_pixel() {
 
 std::optional<PixelPosition> Viewer::hovered_pixel() const {
     const auto& pointed = model_.window().pointed;
-    if (!pointed || !plan_.at_image) return std::nullopt;
+    if (!pointed) return std::nullopt;
     const Snapshot& snapshot = model_.frame()->snapshot;
-    const PixelPosition pixel = pixel_under(image_, input_.pointer(), snapshot.width, snapshot.height);
-    return PixelPosition{pixel.x, pixel.y};
+    const Rect place = place_under(picture_places(plan_, image_, layout_.view), input_.pointer());
+    return pixel_under(place, input_.pointer(), snapshot.width, snapshot.height);
 }
 
 void Viewer::answer_requests() {
@@ -326,7 +364,10 @@ void Viewer::show() {
     SDL_SetRenderDrawColor(display_.renderer(), 12, 13, 16, 255);
     SDL_RenderClear(display_.renderer());
     if (plan_.tiles.empty()) image_layer_.draw(model_, image_, layout_.view);
-    compare_layer_.draw(plan_, model_.display().settings());
+    if (!plan_.tiles.empty())
+        compare_layer_.draw(plan_, model_.display().settings(), image_layer_.overlay(model_));
+    else
+        compare_layer_.draw(plan_, model_.display().settings(), {});
     gui_.draw();
     if (magnifier_) {  // over the overlays, whose lines are not magnified
         if (plan_.tiles.empty()) image_layer_.magnify(*magnifier_);
@@ -334,6 +375,9 @@ void Viewer::show() {
     }
     if (std::exchange(model_.window().requests.window_shot, false))
         model_.files().pictures().save_window(display_.read_pixels(), model_.files().pictures().next_window_shot());
+    if (std::exchange(model_.window().requests.view_shot, false))
+        model_.files().pictures().save_window(part_of(display_.read_pixels(), layout_.clear),
+                                              model_.files().pictures().next_view_shot());
     if (script_) {
         if (const auto path = script_->take_shot())
             model_.files().pictures().save_window(display_.read_pixels(), *path);

@@ -120,7 +120,8 @@ struct ViewerOptions {
     std::filesystem::path screenshot_dir = ".";
     std::filesystem::path reference_dir = "references";  ///< of stored references; found and made there
     bool remember = true;                                ///< state of the window, between starts
-    std::filesystem::path remember_folder;          ///< of viewer.json; empty: the system's folder for such files
+    bool is_free = false;                   ///< nothing was asked for: a first start shows what the program is about
+    std::filesystem::path remember_folder;  ///< of viewer.json; empty: the system's folder for such files
     std::optional<std::filesystem::path> script;    ///< scripted input, see ui/script/script.h
     std::optional<std::filesystem::path> ui_trace;  ///< one JSON object per UI frame; percentiles on stderr
     const StopFlag* stop = nullptr;                 ///< raised: the window is closed

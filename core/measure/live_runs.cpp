@@ -70,13 +70,14 @@ void LiveRuns::set_reference(std::shared_ptr<const LiveReference> reference) {
     update_current();
 }
 
-bool LiveRuns::observe(const Session& session, FilmSlot slot) {
+bool LiveRuns::observe(const Session& session, FilmSlot slot, bool is_last) {
     const FilmOrigin origin = session.film_origin(slot);
     if (origin.number == 0) return false;
     bool changed = origin.generation != generation_ && leave_generation(origin.generation);
     const bool is_measured = slot.view == View::Beauty;
     changed = work_on(is_measured ? origin.number : 0) || changed;
-    changed = (is_measured && is_due(session, slot, origin) && add_point(session, slot, origin)) || changed;
+    changed = (is_measured && is_due(session, slot, origin, is_last) && add_point(session, slot, origin, is_last)) ||
+              changed;
     // Points get rare, and viewers show the share of measuring in the charged time.
     const double told = current_->charged_seconds;
     changed = changed || (told > 0.0 && charged_seconds_ > kRenewedAfter * told);
@@ -107,27 +108,30 @@ bool LiveRuns::work_on(std::uint64_t number) {
     return changed;
 }
 
-bool LiveRuns::is_due(const Session& session, FilmSlot slot, const FilmOrigin& origin) {
+bool LiveRuns::is_due(const Session& session, FilmSlot slot, const FilmOrigin& origin, bool is_last) {
     Track& track = tracks_[origin.number];
     const double charged = charged_seconds(own_clocks(session.clocks(slot), origin));
     charged_seconds_ += charged - track.charged_seconds;
     track.charged_seconds = charged;
-    if (session.passes(slot) == track.passes) return false;  // a part of a pass
+    const bool is_measured = is_up_to_date(session, slot);
+    if (session.passes(slot) == track.passes && (!is_last || is_measured)) return false;  // a part of a pass
     track.passes = session.passes(slot);
     const double passing = passing_seconds(session.clocks(slot));
     if (track.passes < kFirstMeasured) return false;
-    if (track.passes > kLastMeasured && (passing < track.next_seconds || !budget_.allows(charged_seconds_)))
+    if (!is_last && track.passes > kLastMeasured &&
+        (passing < track.next_seconds || !budget_.allows(charged_seconds_)))
         return false;
     track.next_seconds = passing * kPointRatio;
     return true;
 }
 
-bool LiveRuns::add_point(const Session& session, FilmSlot slot, const FilmOrigin& origin) {
+bool LiveRuns::add_point(const Session& session, FilmSlot slot, const FilmOrigin& origin, bool is_last) {
     const double start = clock_();
     const std::optional<std::size_t> known = find(origin.number);
     RunLabel label = known ? runs_[*known]->label : label_of(session, slot, origin);
     if (known && details_) label.details = details_(session, slot);
     std::optional<LivePoint> point = measure(session, slot, origin, label.picture);
+    tracks_[origin.number].measured = session.passes(slot);
     if (point) {
         if (!known)
             runs_.push_back(std::make_shared<const LiveRun>(
@@ -140,13 +144,19 @@ bool LiveRuns::add_point(const Session& session, FilmSlot slot, const FilmOrigin
         limit_pictures(label.picture);
     }
     const double spent = clock_() - start;
-    if (session.passes(slot) > kLastMeasured) {
+    if (session.passes(slot) > kLastMeasured && !is_last) {
         budget_.spend(spent);
     } else {
         budget_.note(spent);
         unbudgeted_seconds_ += spent;
     }
     return point.has_value();
+}
+
+bool LiveRuns::is_up_to_date(const Session& session, FilmSlot slot) const {
+    const auto track = tracks_.find(session.film_origin(slot).number);
+    return slot.view != View::Beauty || session.passes(slot) < kFirstMeasured || track == tracks_.end() ||
+           track->second.measured == session.passes(slot);
 }
 
 RunLabel LiveRuns::label_of(const Session& session, FilmSlot slot, const FilmOrigin& origin) const {

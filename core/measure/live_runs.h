@@ -42,8 +42,12 @@ public:
     /// kFirstMeasured to kLastMeasured in any case, on no budget, so that a curve begins with the picture; from then on
     /// after the first pass that is a twelfth of a decade of rendering and learning behind the last point, if measuring
     /// keeps within its share of the time charged to all runs together. A run whose film is cleared
-    /// before its second point is dropped: camera moves leave such runs behind.
-    bool observe(const Session& session, FilmSlot slot);
+    /// before its second point is dropped: camera moves leave such runs behind. `is_last`: no pass follows for now, so that the picture
+    /// as it stays is measured in any case, on no budget.
+    bool observe(const Session& session, FilmSlot slot, bool is_last = false);
+
+    /// Whether the last point of the film has all of its passes; true for films that are not measured.
+    bool is_up_to_date(const Session& session, FilmSlot slot) const;
 
     /// If the session renders the run, it begins anew with its next point.
     void forget(std::uint64_t number);
@@ -56,12 +60,13 @@ private:
         double charged_seconds = 0.0;  ///< of the film, included in charged_seconds_
         double next_seconds = 0.0;     ///< of rendering and learning, at which the next point is due
         std::uint32_t passes = 0;
+        std::uint32_t measured = 0;  ///< passes at the last point
     };
 
     bool leave_generation(std::uint64_t next);
     bool work_on(std::uint64_t number);
-    bool is_due(const Session& session, FilmSlot slot, const FilmOrigin& origin);
-    bool add_point(const Session& session, FilmSlot slot, const FilmOrigin& origin);
+    bool is_due(const Session& session, FilmSlot slot, const FilmOrigin& origin, bool is_last);
+    bool add_point(const Session& session, FilmSlot slot, const FilmOrigin& origin, bool is_last);
     RunLabel label_of(const Session& session, FilmSlot slot, const FilmOrigin& origin) const;
     std::optional<LivePoint> measure(const Session& session, FilmSlot slot, const FilmOrigin& origin,
                                      std::uint64_t picture) const;

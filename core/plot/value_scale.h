@@ -29,6 +29,8 @@ struct ValueRange {
     float position(float value) const;
     /// The value at a position in [0, 1].
     float value_at(float position) const;
+
+    friend bool operator==(const ValueRange&, const ValueRange&) = default;
 };
 
 /// The range of non-negative values, in any order and of any number. If all are 0 the range ends at 1.

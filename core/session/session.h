@@ -98,6 +98,8 @@ public:
     std::optional<FieldStatus> field_status(MethodId method) const { return fields_->status(method); }
     /// Empty for films without guided paths, without light samples, and if every pass is guided by setting.
     std::optional<GuidingStatus> guiding_status(FilmSlot slot) const { return films_->guiding_status(slot); }
+    /// Those of all methods; null before they are placed.
+    const std::shared_ptr<const HostVolumes>& volumes() const { return fields_->placement().volumes(); }
     /// Of the placement that all methods share.
     Refinement refinement() const { return fields_->placement().refinement(); }
     /// Of a film and its method; cheap, unlike a snapshot.

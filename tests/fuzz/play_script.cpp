@@ -178,9 +178,9 @@ void play_script(std::vector<ScriptCommand> commands) {
         SDL_Event event;
         while (SDL_PollEvent(&event) != 0) {
             panels.handle(event);
-            input.handle(
-                event, model,
-                {plan.at_image ? image : Rect{}, layout.view, io.WantCaptureMouse, io.WantTextInput, seconds});
+            input.handle(event, model,
+                         {place_under(picture_places(plan, image, layout.view), input.pointer()), layout.view,
+                          io.WantCaptureMouse, io.WantTextInput, seconds});
         }
         model.update(seconds);
         model.camera().fly(input.move_keys(), ScriptPlayer::kFrameSeconds);

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "core/base/error.h"
-#include "ui/draw/picture.h"
 
 namespace pl::ui {
 
@@ -12,7 +11,7 @@ const HalfCodes& CompareLayer::codes(const DisplaySettings& display) {
     return *codes_;
 }
 
-void CompareLayer::fill(Slot& slot, const TileContent& content, const DisplaySettings& display) {
+void CompareLayer::fill(Slot& slot, const TileContent& content) {
     using What = TileContent::What;
     if (content.what == What::Frame) {
         const DisplayFrame& frame = content.frame->picture;
@@ -22,7 +21,8 @@ void CompareLayer::fill(Slot& slot, const TileContent& content, const DisplaySet
             return;  // the device is lost: the render thread reports it
         }
         if (slot.texture.resize(frame.width, frame.height)) slot.filled = false;
-        slot.texture.fill([&](std::uint32_t* out, std::size_t pitch) { write_picture(frame, {}, out, pitch); });
+        slot.texture.fill(
+            [&](std::uint32_t* out, std::size_t pitch) { write_picture(frame, slot.overlay, out, pitch); });
         slot.filled = true;
         return;
     }
@@ -30,23 +30,26 @@ void CompareLayer::fill(Slot& slot, const TileContent& content, const DisplaySet
     slot.texture.resize(picture.width, picture.height);
     slot.texture.fill([&](std::uint32_t* out, std::size_t pitch) {
         if (content.what == What::Difference)
-            write_difference(picture, *content.other, display, out, pitch);
+            write_difference(picture, *content.other, slot.display, out, pitch);
         else if (content.what == What::ErrorMap)
             write_error_map(picture, *content.other, out, pitch);
         else
-            write_half_picture(picture, codes(display), out, pitch);
+            write_half_picture(picture, codes(slot.display), out, pitch);
+        write_cells(slot.overlay, picture.width, picture.height, out, pitch);
     });
     slot.filled = true;
 }
 
-void CompareLayer::draw(const ComparePlan& plan, const DisplaySettings& display) {
+void CompareLayer::draw(const ComparePlan& plan, const DisplaySettings& display, const CellOverlay& overlay) {
     for (std::size_t i = 0; i < std::min(plan.tiles.size(), slots_.size()); ++i) {
         const CompareTile& tile = plan.tiles[i];
         Slot& slot = slots_[i];
-        if (!slot.filled || !(slot.shown == tile.content) || !(slot.display == display)) {
-            fill(slot, tile.content, display);
-            slot.shown = tile.content;
+        if (!slot.filled || !(slot.shown == tile.content) || !(slot.display == display) ||
+            !(slot.overlay == overlay)) {
             slot.display = display;
+            slot.overlay = overlay;
+            fill(slot, tile.content);
+            slot.shown = tile.content;
         }
         if (slot.filled)
             slot.texture.draw(tile.place, tile.clip, plan.is_zoomed ? Scaling::Nearest : Scaling::Smooth);
@@ -54,6 +57,7 @@ void CompareLayer::draw(const ComparePlan& plan, const DisplaySettings& display)
     // Releases the pictures of tiles that are not shown any more.
     for (std::size_t i = plan.tiles.size(); i < slots_.size(); ++i) {
         slots_[i].shown = {};
+        slots_[i].overlay = {};
         slots_[i].filled = false;
     }
 }

@@ -6,6 +6,7 @@
 
 #include "ui/compare/compare_plan.h"
 #include "ui/compare/half_image.h"
+#include "ui/draw/picture.h"
 #include "ui/draw/picture_zoom.h"
 #include "ui/draw/stream_texture.h"
 
@@ -15,7 +16,8 @@ class CompareLayer {
 public:
     explicit CompareLayer(SDL_Renderer* renderer) : slots_{Slot(renderer), Slot(renderer)} {}
 
-    void draw(const ComparePlan& plan, const DisplaySettings& display);
+    /// `overlay` lies over each of the pictures.
+    void draw(const ComparePlan& plan, const DisplaySettings& display, const CellOverlay& overlay);
 
     /// The tiles as drawn last, again in the magnifier's box: each as far as it is visible.
     void magnify(const ComparePlan& plan, const Magnifier& magnifier);
@@ -26,10 +28,12 @@ private:
         StreamTexture texture;
         TileContent shown;
         DisplaySettings display;
+        CellOverlay overlay;
         bool filled = false;
     };
 
-    void fill(Slot& slot, const TileContent& content, const DisplaySettings& display);
+    /// With the display and overlay of the slot.
+    void fill(Slot& slot, const TileContent& content);
     const HalfCodes& codes(const DisplaySettings& display);
 
     std::array<Slot, 2> slots_;

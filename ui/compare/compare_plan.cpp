@@ -65,7 +65,6 @@ void plan_side_by_side(ComparePlan& plan, const CompareSides& sides, const Stage
     const Stage right{{view.x + half, view.y, view.width - half, view.height}, stage.zoom};
     plan.tiles = {whole_tile(content_of(*sides.a), *sides.a, left),
                   whole_tile(content_of(*sides.b), *sides.b, right)};
-    plan.at_image = false;
 }
 
 void plan_difference(ComparePlan& plan, const CompareSides& sides, const Stage& stage) {
@@ -142,6 +141,25 @@ ComparePlan plan_comparison(const CompareSides& sides, const CompareState& state
         plan.tiles[0].label_right = state.shows_second;
     }
     return plan;
+}
+
+std::vector<PicturePlace> picture_places(const ComparePlan& plan, const Rect& image, const Rect& view) {
+    if (plan.tiles.empty()) return {{image, common_part(image, view)}};
+    std::vector<PicturePlace> places;
+    for (const CompareTile& tile : plan.tiles) {
+        const bool is_new = places.empty() || places.back().place.x != tile.place.x;
+        if (is_new)
+            places.push_back({tile.place, tile.clip});
+        else  // beside the other part
+            places.back().clip.width = tile.clip.x + tile.clip.width - places.back().clip.x;
+    }
+    return places;
+}
+
+Rect place_under(const std::vector<PicturePlace>& places, Vec2f pointer) {
+    for (const PicturePlace& place : places)
+        if (place.clip.contains(pointer)) return place.place;
+    return {};
 }
 
 std::optional<Vec3f> value_of(const PublishedFrame& frame, PixelPosition pixel) {

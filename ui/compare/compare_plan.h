@@ -37,8 +37,18 @@ struct ComparePlan {
     std::string hint;                ///< the missing input of the mode; empty if it has all
     bool has_heat = false;           ///< colors are those of error_map_legend()
     bool is_zoomed = false;          ///< tiles show a part of their pictures, pixel by pixel
-    bool at_image = true;            ///< the picture has its place as without a comparison, so that it can be picked
 };
+
+/// The place of a whole picture in the window, and the part of it that is seen.
+struct PicturePlace {
+    Rect place;
+    Rect clip;
+};
+/// Of all pictures of the plan; without any, of the one at `image` in `view`. All show the same scene from the same camera: overlays
+/// and clicks belong to each of them. Two that share a place are one.
+std::vector<PicturePlace> picture_places(const ComparePlan& plan, const Rect& image, const Rect& view);
+/// Of the picture under the pointer; empty without one.
+Rect place_under(const std::vector<PicturePlace>& places, Vec2f pointer);
 
 /// `view` is the part of the window for pictures, `reference` that of the picture, or null. Pictures side by side show the same
 /// part of both.

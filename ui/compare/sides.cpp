@@ -42,7 +42,7 @@ CompareSide side_of(const CompareInput& input, const LiveRun& run) {
     CompareSide side{.run = run.number,
                      .picture = {},
                      .label = {},
-                     .color = info_of(run.label.method).color,
+                     .color = run_color(input.runs, run.label),
                      .method = run.label.method,
                      .backend = run.label.backend,
                      .setup_seconds = {},

@@ -36,6 +36,15 @@ inline bool init_imgui_platform(SDL_Window* window, [[maybe_unused]] SDL_Rendere
 #endif
 }
 
+/// A bordered part of a window into and out of which arrow keys move.
+inline bool begin_part(const char* id, const ImVec2& size) {
+#if IMGUI_VERSION_NUM >= 19090
+    return ImGui::BeginChild(id, size, ImGuiChildFlags_Borders | ImGuiChildFlags_NavFlattened);
+#else
+    return ImGui::BeginChild(id, size, true, ImGuiWindowFlags_NavFlattened);
+#endif
+}
+
 /// ImTextureID is a pointer up to 1.91.3 and an integer from 1.91.4.
 inline ImTextureID to_texture_id(SDL_Texture* texture) {
     return (ImTextureID)(std::intptr_t)texture;  // a C cast converts to both
@@ -48,8 +57,11 @@ class PictureTextures;
 
 struct GuiMemory {
     PictureTextures* textures = nullptr;  ///< of the window's renderer
+    int keyed_panel = -1;                 ///< the panel that was given the keyboard in the last frame; -1: none
     float pointer_rest_seconds = 0.0f;    ///< since the pointer moved: tooltips wait for rest
-    float card_top = 0.0f;                ///< upper edge of the tour's card in the last frame
+    float top_card_end = 0.0f;    ///< lower edge of the card over the picture's top in the last frame; 0 without one
+    float low_card_start = 0.0f;  ///< upper edge of the one over its bottom; infinite without one
+    std::string badges{};         ///< over the picture in the last frame, for scripts
     /// Rectangles of the controls in the last frame by their labels: scripts point at them.
     std::map<std::string, Rect, std::less<>> places;
 };

@@ -80,9 +80,13 @@ void split_right_side(Layout& layout, const Rect& side, float em, const PanelCho
 
 }  // namespace
 
-Layout make_layout(float width, float height, float em, const PanelChoice& choice, bool detail) {
+Layout make_layout(float width, float height, float em, const PanelChoice& asked, bool detail) {
     Layout layout;
-    layout.panels = choice.shown;
+    layout.panels = asked.shown;
+    layout.one_side = width - 2.0f * border_pixels(em) < (kSmallestLeftEm + kSmallestViewEm + kSmallestRightEm) * em;
+    PanelChoice choice = asked;
+    choice.settings = asked.shows_settings(layout.one_side);
+    choice.right = asked.shows_right(layout.one_side);
     layout.view = {0.0f, 0.0f, width, height};
     layout.clear = layout.view;
     if (!choice.shown) return layout;

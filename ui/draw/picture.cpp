@@ -82,17 +82,31 @@ void outline_cell(const CellImage& cells, std::uint32_t wanted, std::uint32_t* o
 
 }  // namespace
 
+void write_heat(const Snapshot& snapshot, const ValueRange& range, std::uint32_t* out, std::size_t pitch) {
+    const auto width = static_cast<std::size_t>(snapshot.width);
+    for (std::size_t i = 0; i < snapshot.pixels.size(); ++i) {
+        const float value = snapshot.pixels[i].x;
+        const ByteColor color = heat_color(std::isfinite(value) ? range.position(value) : value);
+        out[i / width * pitch + i % width] =
+            kOpaque | static_cast<std::uint32_t>(color.r) << 16 | static_cast<std::uint32_t>(color.g) << 8 | color.b;
+    }
+}
+
+void write_cells(const CellOverlay& overlay, int width, int height, std::uint32_t* out, std::size_t pitch) {
+    const CellImage* cells = overlay.cells.get();
+    if (cells == nullptr || cells->width != width || cells->height != height) return;
+    if (overlay.opacity > 0.0f)
+        blend_cells(overlay.tint != nullptr ? *overlay.tint : *cells, overlay.opacity, out, pitch);
+    // Pixels on the border of two cells may mix their colors: they count as outside.
+    if (overlay.outlined) outline_cell(*cells, *overlay.outlined, out, pitch);
+}
+
 void write_picture(const DisplayFrame& frame, const CellOverlay& overlay, std::uint32_t* out, std::size_t pitch) {
     const std::uint32_t* pixels = frame.pixels();
     const auto width = static_cast<std::size_t>(frame.width);
     for (std::size_t y = 0; y < static_cast<std::size_t>(frame.height); ++y)
         std::copy_n(pixels + y * width, width, out + y * pitch);
-    const CellImage* cells = overlay.cells;
-    if (cells == nullptr || cells->width != frame.width || cells->height != frame.height) return;
-    if (overlay.opacity > 0.0f)
-        blend_cells(overlay.tint != nullptr ? *overlay.tint : *cells, overlay.opacity, out, pitch);
-    // Pixels on the border of two cells may mix their colors: they count as outside.
-    if (overlay.outlined) outline_cell(*cells, *overlay.outlined, out, pitch);
+    write_cells(overlay, frame.width, frame.height, out, pitch);
 }
 
 }  // namespace pl::ui

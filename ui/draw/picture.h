@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
+#include "core/plot/value_scale.h"
 #include "ui/worker/field_history.h"
 #include "ui/worker/published_frame.h"
 
@@ -22,11 +24,19 @@ CellImage tint_cells(const CellImage& cells, std::span<const std::uint32_t> colo
 
 /// Overlay of the radiance volumes' cells.
 struct CellOverlay {
-    const CellImage* cells = nullptr;       ///< ignored if null or of another size than the picture
-    float opacity = 0.0f;                   ///< of the cells' colors
-    std::optional<std::uint32_t> outlined;  ///< cell_color() of the cell that gets an outline
-    const CellImage* tint = nullptr;        ///< blended in place of the cells' own colors; of the same size
+    std::shared_ptr<const CellImage> cells;   ///< ignored if null or of another size than the picture
+    float opacity = 0.0f;                     ///< of the cells' colors
+    std::optional<std::uint32_t> outlined;    ///< cell_color() of the cell that gets an outline
+    std::shared_ptr<const CellImage> tint{};  ///< blended in place of the cells' own colors; of the same size
+
+    friend bool operator==(const CellOverlay&, const CellOverlay&) = default;
 };
+
+/// The values of a view of numbers in heat_color(), in rows `pitch` pixels apart: the first channel of its pixels.
+void write_heat(const Snapshot& snapshot, const ValueRange& range, std::uint32_t* out, std::size_t pitch);
+
+/// Draws the overlay into a picture of width x height pixels, in rows `pitch` pixels apart.
+void write_cells(const CellOverlay& overlay, int width, int height, std::uint32_t* out, std::size_t pitch);
 
 /// Writes ARGB8888 rows, `pitch` pixels apart. May wait for the frame, and throws as DisplayFrame::pixels() does.
 void write_picture(const DisplayFrame& frame, const CellOverlay& overlay, std::uint32_t* out, std::size_t pitch);

@@ -10,51 +10,73 @@ ImVec4 rgb(int hex) {
             static_cast<float>(hex & 255) / 255.0f, 1.0f};
 }
 
-void apply_colors(ImVec4* c) {
+/// 0xRRGGBB in both themes.
+struct Shade {
+    int dark;
+    int light;
+};
+
+void apply_colors(ImVec4* c, Theme theme) {
+    const auto hex = [&](Shade shade) { return theme == Theme::Dark ? shade.dark : shade.light; };
+    const auto opaque = [&](Shade shade) { return ImGui::ColorConvertFloat4ToU32(rgb(hex(shade))); };
+    colors::kText = opaque({0xe4e6ea, 0x15181d});
+    colors::kFaint = opaque({0x969ca6, 0x555c68});
+    colors::kAccent = opaque({0x5ca8ff, 0x0b57a8});
+    colors::kGood = opaque({0x6ccc80, 0x146c2e});
+    colors::kWarning = opaque({0xffb84c, 0x8a4b00});
+    colors::kError = opaque({0xff7068, 0xb3261e});
+    colors::kBadge = (opaque({0x14161b, 0xf4f5f7}) & 0x00ffffffu) | 0xd7000000u;
+    colors::kGround = opaque({0x101216, 0xffffff});
+    colors::kGrid = opaque({0x343a45, 0xbfc4cc});
+    colors::kMinorGrid = opaque({0x20242b, 0xe6e8ec});
+    const auto set = [&](int index, Shade shade) { c[index] = rgb(hex(shade)); };
     c[ImGuiCol_Text] = to_vec4(colors::kText);
     c[ImGuiCol_TextDisabled] = to_vec4(colors::kFaint);
-    // Opaque: blending whole panels would take most of the time of a software renderer.
-    c[ImGuiCol_WindowBg] = rgb(0x1b1e24);
-    c[ImGuiCol_ChildBg] = rgb(0x16181d);
-    c[ImGuiCol_PopupBg] = rgb(0x22262e);
-    c[ImGuiCol_MenuBarBg] = rgb(0x14161a);
-    c[ImGuiCol_Border] = rgb(0x343a45);
-    c[ImGuiCol_FrameBg] = rgb(0x2a2f39);
-    c[ImGuiCol_FrameBgHovered] = rgb(0x353c49);
-    c[ImGuiCol_FrameBgActive] = rgb(0x3d4656);
-    c[ImGuiCol_TitleBg] = c[ImGuiCol_TitleBgActive] = rgb(0x14161a);
-    c[ImGuiCol_Button] = rgb(0x323946);
-    c[ImGuiCol_ButtonHovered] = rgb(0x3f495a);
-    c[ImGuiCol_ButtonActive] = rgb(0x2f6bb0);
-    c[ImGuiCol_Header] = rgb(0x272c35);
-    c[ImGuiCol_HeaderHovered] = rgb(0x323946);
-    c[ImGuiCol_HeaderActive] = rgb(0x3a4352);
     c[ImGuiCol_CheckMark] = to_vec4(colors::kAccent);
-    c[ImGuiCol_SliderGrab] = rgb(0x5ca8ff);
-    c[ImGuiCol_SliderGrabActive] = rgb(0x8cc2ff);
-    c[ImGuiCol_Separator] = rgb(0x343a45);
-    c[ImGuiCol_Tab] = rgb(0x20242b);
-    c[ImGuiCol_TabHovered] = rgb(0x3f495a);
+    // Opaque: blending whole panels would take most of the time of a software renderer.
+    set(ImGuiCol_WindowBg, {0x1b1e24, 0xeff1f4});
+    set(ImGuiCol_ChildBg, {0x16181d, 0xf8f9fa});
+    set(ImGuiCol_PopupBg, {0x22262e, 0xffffff});
+    set(ImGuiCol_MenuBarBg, {0x14161a, 0xe0e3e8});
+    set(ImGuiCol_Border, {0x343a45, 0xb4bac4});
+    set(ImGuiCol_FrameBg, {0x2a2f39, 0xffffff});
+    set(ImGuiCol_FrameBgHovered, {0x353c49, 0xe3eaf4});
+    set(ImGuiCol_FrameBgActive, {0x3d4656, 0xd2def0});
+    set(ImGuiCol_TitleBg, {0x14161a, 0xd6dae0});
+    set(ImGuiCol_TitleBgActive, {0x14161a, 0xd6dae0});
+    set(ImGuiCol_Button, {0x323946, 0xd4d9e1});
+    set(ImGuiCol_ButtonHovered, {0x3f495a, 0xc0c9d6});
+    set(ImGuiCol_ButtonActive, {0x2f6bb0, 0x8fbdf0});
+    set(ImGuiCol_Header, {0x272c35, 0xdde1e8});
+    set(ImGuiCol_HeaderHovered, {0x323946, 0xccd5e2});
+    set(ImGuiCol_HeaderActive, {0x3a4352, 0xb9c7da});
+    set(ImGuiCol_SliderGrab, {0x5ca8ff, 0x3c86d6});
+    set(ImGuiCol_SliderGrabActive, {0x8cc2ff, 0x0b57a8});
+    set(ImGuiCol_Separator, {0x343a45, 0xb4bac4});
+    set(ImGuiCol_Tab, {0x20242b, 0xd4d9e1});
+    set(ImGuiCol_TabHovered, {0x3f495a, 0xc0c9d6});
 #if IMGUI_VERSION_NUM >= 19090
-    c[ImGuiCol_TabSelected] = c[ImGuiCol_TabDimmedSelected] = rgb(0x2f6bb0);
+    set(ImGuiCol_TabSelected, {0x2f6bb0, 0x8fbdf0});
+    c[ImGuiCol_TabDimmedSelected] = c[ImGuiCol_TabSelected];
     c[ImGuiCol_TabDimmed] = c[ImGuiCol_Tab];
 #else
-    c[ImGuiCol_TabActive] = c[ImGuiCol_TabUnfocusedActive] = rgb(0x2f6bb0);
+    set(ImGuiCol_TabActive, {0x2f6bb0, 0x8fbdf0});
+    c[ImGuiCol_TabUnfocusedActive] = c[ImGuiCol_TabActive];
     c[ImGuiCol_TabUnfocused] = c[ImGuiCol_Tab];
 #endif
-    c[ImGuiCol_ScrollbarBg] = rgb(0x16181d);
-    c[ImGuiCol_ScrollbarGrab] = rgb(0x3a4352);
-    c[ImGuiCol_TableHeaderBg] = rgb(0x272c35);
-    c[ImGuiCol_TableBorderLight] = rgb(0x2c323c);
-    c[ImGuiCol_TableRowBgAlt] = rgb(0x1f232a);
-    c[ImGuiCol_PlotHistogram] = rgb(0x5ca8ff);
+    set(ImGuiCol_ScrollbarBg, {0x16181d, 0xe0e3e8});
+    set(ImGuiCol_ScrollbarGrab, {0x3a4352, 0xb0b8c4});
+    set(ImGuiCol_TableHeaderBg, {0x272c35, 0xdde1e8});
+    set(ImGuiCol_TableBorderLight, {0x2c323c, 0xc8cdd5});
+    set(ImGuiCol_TableRowBgAlt, {0x1f232a, 0xe6e9ee});
+    set(ImGuiCol_PlotHistogram, {0x5ca8ff, 0x3c86d6});
 }
 
 }  // namespace
 
-void apply_style(float ui_scale) {
+void apply_style(float ui_scale, Theme theme) {
     ImGuiStyle style;
-    apply_colors(style.Colors);
+    apply_colors(style.Colors, theme);
     style.WindowRounding = 0.0f;
     style.FrameRounding = 3.0f;
     style.GrabRounding = 3.0f;
@@ -62,6 +84,7 @@ void apply_style(float ui_scale) {
     style.ScrollbarRounding = 3.0f;
     style.TabRounding = 3.0f;
     style.WindowBorderSize = 1.0f;
+    style.FrameBorderSize = theme == Theme::Light ? 1.0f : 0.0f;  // white boxes on a light ground
     style.WindowPadding = {10.0f, 10.0f};
     style.FramePadding = {7.0f, 3.0f};
     style.ItemSpacing = {8.0f, 4.0f};
@@ -74,10 +97,9 @@ void apply_style(float ui_scale) {
     ImGui::GetStyle() = style;
 }
 
-void load_fonts(const std::filesystem::path& font, float ui_scale) {
-    ImFontAtlas& atlas = *ImGui::GetIO().Fonts;
-    atlas.Clear();
-    const float pixels = std::round(kFontPixels * ui_scale);
+namespace {
+
+void add_font(ImFontAtlas& atlas, const std::filesystem::path& font, float pixels) {
     static const ImWchar kRanges[] = {0x0020, 0x00ff, 0x2013, 0x2026, 0x2212, 0x2212, 0x2264, 0x2265, 0};
     std::error_code ignored;
     if (!font.empty() && std::filesystem::is_regular_file(font, ignored)) {
@@ -92,5 +114,15 @@ void load_fonts(const std::filesystem::path& font, float ui_scale) {
     config.SizePixels = pixels;
     atlas.AddFontDefault(&config);
 }
+
+}  // namespace
+
+void load_fonts(const std::filesystem::path& font, float ui_scale) {
+    ImFontAtlas& atlas = *ImGui::GetIO().Fonts;
+    atlas.Clear();
+    for (const float height : {1.0f, kLargeText}) add_font(atlas, font, std::round(kFontPixels * ui_scale * height));
+}
+
+ImFont* large_font() { return ImGui::GetIO().Fonts->Fonts.back(); }
 
 }  // namespace pl::ui

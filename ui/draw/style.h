@@ -5,26 +5,35 @@
 #include <filesystem>
 
 #include "ui/draw/imgui_draw.h"
+#include "ui/draw/theme.h"
 
 namespace pl::ui {
 
+/// Of the theme, see apply_style().
 namespace colors {
-inline constexpr ImU32 kText = IM_COL32(228, 230, 234, 255);
-inline constexpr ImU32 kFaint = IM_COL32(150, 156, 166, 255);
-inline constexpr ImU32 kAccent = IM_COL32(92, 168, 255, 255);
-inline constexpr ImU32 kGood = IM_COL32(108, 204, 128, 255);
-inline constexpr ImU32 kWarning = IM_COL32(255, 184, 76, 255);
-inline constexpr ImU32 kError = IM_COL32(255, 112, 104, 255);
-inline constexpr ImU32 kBadge = IM_COL32(20, 22, 27, 215);
+inline ImU32 kText = 0;
+inline ImU32 kFaint = 0;
+inline ImU32 kAccent = 0;
+inline ImU32 kGood = 0;
+inline ImU32 kWarning = 0;
+inline ImU32 kError = 0;
+inline ImU32 kBadge = 0;   ///< behind text over the picture
+inline ImU32 kGround = 0;  ///< of plots
+inline ImU32 kGrid = 0;
+inline ImU32 kMinorGrid = 0;
 }  // namespace colors
 
 /// Height of the font in pixels, the unit of all sizes.
 inline constexpr float kFontPixels = 16.0f;
 
-/// Theme and sizes for a scale of the user interface; 1 is the design size.
-void apply_style(float ui_scale);
+/// Height of large text over that of the font.
+inline constexpr float kLargeText = 1.4f;
+ImFont* large_font();
 
-/// Fills the font atlas: the given file, or the built-in font if it is missing.
+/// Colors of a theme, and sizes for a scale of the user interface; 1 is the design size.
+void apply_style(float ui_scale, Theme theme = Theme::Dark);
+
+/// Fills the font atlas, in the font's own and in the large height: the given file, or the built-in font if it is missing.
 void load_fonts(const std::filesystem::path& font, float ui_scale);
 
 /// n times the height of the font.

@@ -82,6 +82,7 @@ void begin_fixed_window(const char* name, const Rect& place, int extra_flags) {
                      ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings |
                      ImGuiWindowFlags_NoBringToFrontOnFocus | extra_flags);
     ImGui::PopStyleVar();
+    note_place(name, place);
 }
 
 void fill_fan(ImDrawList& list, std::span<const ImVec2> center_and_border, ImU32 color) {
@@ -114,16 +115,55 @@ void text_cell(const std::string& text, ImU32 color) {
     ImGui::PopStyleColor();
 }
 
+namespace {
+
+constexpr float kTooltipEm = 22.0f;
+
+/// Beside the panel of the last item, at its height; of a bar across the window below or above it.
+void place_tooltip() {
+    const ImVec2 low = ImGui::GetItemRectMin();
+    const ImVec2 high = ImGui::GetItemRectMax();
+    const ImVec2 corner = ImGui::GetWindowPos();
+    const ImVec2 size = ImGui::GetWindowSize();
+    const ImVec2 screen = ImGui::GetIO().DisplaySize;
+    const float gap = em(0.4f);
+    const float needed = em(kTooltipEm + 1.5f);
+    const bool is_low = low.y > 0.5f * screen.y;
+    const float y = is_low ? high.y : low.y;
+    if (corner.x + size.x + needed <= screen.x)
+        ImGui::SetNextWindowPos({corner.x + size.x + gap, y}, ImGuiCond_Always, {0.0f, is_low ? 1.0f : 0.0f});
+    else if (corner.x >= needed)
+        ImGui::SetNextWindowPos({corner.x - gap, y}, ImGuiCond_Always, {1.0f, is_low ? 1.0f : 0.0f});
+    else
+        ImGui::SetNextWindowPos(
+            {std::clamp(low.x, 0.0f, std::max(screen.x - needed, 0.0f)), is_low ? low.y - gap : high.y + gap},
+            ImGuiCond_Always, {0.0f, is_low ? 1.0f : 0.0f});
+}
+
+}  // namespace
+
+void begin_tooltip() {
+    place_tooltip();
+    ImGui::BeginTooltip();
+}
+
+void end_tooltip() {
+    const ImVec2 corner = ImGui::GetWindowPos();
+    const ImVec2 size = ImGui::GetWindowSize();
+    ImGui::EndTooltip();
+    note_place("tooltip", {corner.x, corner.y, size.x, size.y});
+}
+
 void tooltip(const char* text) {
     constexpr float kRestSeconds = 0.4f;  // a moving pointer should not open tooltips on its way
     if (*text == '\0' || !ImGui::IsItemHovered() || ImGui::IsMouseDown(ImGuiMouseButton_Left) ||
         gui_memory().pointer_rest_seconds < kRestSeconds)
         return;
-    ImGui::BeginTooltip();
-    ImGui::PushTextWrapPos(em(22.0f));
+    begin_tooltip();
+    ImGui::PushTextWrapPos(em(kTooltipEm));
     ImGui::TextUnformatted(text);
     ImGui::PopTextWrapPos();
-    ImGui::EndTooltip();
+    end_tooltip();
 }
 
 void note_place(const char* label) {
@@ -249,6 +289,19 @@ bool choice_row(const char* label, const char* tip, int* index, const std::vecto
     }
     ImGui::EndCombo();
     return changed;
+}
+
+void range_controls(RangeRule& rule) {
+    bool logarithmic = rule.scale == ColorScale::Logarithmic;
+    if (ImGui::Checkbox("log", &logarithmic)) rule.scale = logarithmic ? ColorScale::Logarithmic : ColorScale::Linear;
+    end_row("log", "Logarithmic colors, over at most three decades.");
+    ImGui::SameLine();
+    ImGui::SetNextItemWidth(-1.0f);
+    ImGui::DragFloatRange2("##range", &rule.low_percent, &rule.high_percent, 0.2f, 0.0f, 100.0f, "%.0f %%", "%.0f %%",
+                           ImGuiSliderFlags_AlwaysClamp);
+    tooltip("Colors run from one percentile of the values to the other. Drag the ends; Ctrl+click to type; right "
+            "click for all values.");
+    if (ImGui::IsItemClicked(ImGuiMouseButton_Right)) rule = {.scale = rule.scale};
 }
 
 bool color_row(const char* label, const char* tip, float* rgb) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/base/choice.h"
+#include "core/plot/value_scale.h"
 #include "ui/draw/draw_list.h"
 #include "ui/draw/style.h"
 
@@ -19,6 +20,9 @@ void fill_fan(ImDrawList& list, std::span<const ImVec2> center_and_border, ImU32
 
 /// Explains the last item while the pointer rests on it.
 void tooltip(const char* text);
+/// A tooltip of other content: beside the panel of the last item, so that it covers nothing that it is about.
+void begin_tooltip();
+void end_tooltip();
 
 /// The next cell of a table.
 void text_cell(const std::string& text, ImU32 color = colors::kText);
@@ -80,6 +84,9 @@ bool choice_row(const char* label, const char* about, Enum* value, float width =
     *value = kChoices<Enum>[static_cast<std::size_t>(index)].value;
     return true;
 }
+
+/// How colors follow from values: a check box for their logarithm, and the percentiles between which they run. Fills the row.
+void range_controls(RangeRule& rule);
 
 /// Linear red, green and blue in [0, 1].
 bool color_row(const char* label, const char* tip, float* rgb);

@@ -96,17 +96,23 @@ std::vector<Action> actions_after_methods() {
         {HidePanels, Group::Window, "Tab", "hide or show the panels", {at(SDL_SCANCODE_TAB)}},
         {FoldSettings, Group::Window, "F6", "fold or open the settings", {at(SDL_SCANCODE_F6)}},
         {FoldRight, Group::Window, "F7", "fold or open tabs and accuracy panel", {at(SDL_SCANCODE_F7)}},
+        {KeyPanels,
+         Group::Window,
+         "Ctrl+Tab",
+         "keyboard into the panels: arrows and Space; again: the next one; Esc leaves",
+         {at(SDL_SCANCODE_TAB, kCtrl)}},
         {FullScreen, Group::Window, "F11", "full screen", {at(SDL_SCANCODE_F11)}},
-        {Help, Group::Window, "F1 or ?", "this list", {at(SDL_SCANCODE_F1), at(SDL_SCANCODE_SLASH, kShift)}},
-        {Tour, Group::Window, "F4", "guided tour: begin, leave or continue", {at(SDL_SCANCODE_F4)}},
         {SwitchLayout, Group::Window, "F3", "layout: Explore or Research", {at(SDL_SCANCODE_F3)}},
         {ResetWindow,
          Group::Window,
          "Ctrl+F3",
          "reset the window, and forget what is remembered of it",
          {at(SDL_SCANCODE_F3, kCtrl)}},
-        {SelfTest, Group::Window, "F2", "self test of all back ends", {at(SDL_SCANCODE_F2)}},
-        {Cancel, Group::Window, "Esc", "close, cancel or deselect", {at(SDL_SCANCODE_ESCAPE)}},
+        {Cancel,
+         Group::Window,
+         "Esc",
+         "close or end the topmost that is open or under way",
+         {at(SDL_SCANCODE_ESCAPE)}},
 
         {Open, Group::File, "Ctrl+O", "open a scene", {sign(SDLK_o, kCtrl)}},
         {Reload, Group::File, "F5", "reload the scene", {at(SDL_SCANCODE_F5)}},
@@ -116,11 +122,21 @@ std::vector<Action> actions_after_methods() {
          "Shift+F12",
          "save the whole window as PNG",
          {at(SDL_SCANCODE_F12, kShift)}},
+        {SaveView,
+         Group::File,
+         "Ctrl+F12",
+         "save the picture as it is seen, with all over it",
+         {at(SDL_SCANCODE_F12, kCtrl)}},
         {Save, Group::File, "Ctrl+S", "save the picture as EXR and PNG", {sign(SDLK_s, kCtrl)}},
         {SaveField, Group::File, "Ctrl+Shift+S", "save the learned field", {sign(SDLK_s, kCtrlShift)}},
         {LoadField, Group::File, "Ctrl+L", "continue from the newest saved field", {sign(SDLK_l, kCtrl)}},
         {CopyCommand, Group::File, "Ctrl+C", "copy as command line", {sign(SDLK_c, kCtrl)}},
         {Quit, Group::File, "Ctrl+Q", "quit", {sign(SDLK_q, kCtrl)}},
+
+        {Help, Group::Help, "F1 or ?", "keys and mouse", {at(SDL_SCANCODE_F1), at(SDL_SCANCODE_SLASH, kShift)}},
+        {Tour, Group::Help, "F4", "guided tour: begin, leave or continue", {at(SDL_SCANCODE_F4)}},
+        {SelfTest, Group::Help, "F2", "self test of all back ends", {at(SDL_SCANCODE_F2)}},
+        {About, Group::Help, "Shift+F1", "about pathlight", {at(SDL_SCANCODE_F1, kShift)}},
     };
 }
 
@@ -171,6 +187,7 @@ const char* name_of(ActionGroup group) {
     case Group::Compare: return "Compare";
     case Group::Window: return "Window";
     case Group::File: return "File";
+    case Group::Help: return "Help";
     }
     return "";
 }

@@ -76,12 +76,15 @@ enum class ActionId {
     Zoom,
     Magnify,
     FollowExposure,
+    About,
+    KeyPanels,
+    SaveView,
     Cancel,
     Quit,
 };
 
 /// Order of the help overlay and of the menus.
-enum class ActionGroup { Fly, Render, Method, View, Overlay, Compare, Window, File };
+enum class ActionGroup { Fly, Render, Method, View, Overlay, Compare, Window, File, Help };
 
 struct Modifiers {
     bool shift = false;
@@ -129,7 +132,7 @@ std::span<const MouseAction> mouse_actions();
 /// The first action with this id.
 const Action& info_of(ActionId id);
 const char* name_of(ActionGroup group);
-inline constexpr int kActionGroupCount = 8;
+inline constexpr int kActionGroupCount = 9;
 
 /// The action of a key press; null if the key has none.
 const Action* find_action(const KeyStroke& stroke);

@@ -91,7 +91,8 @@ class InputRouter {
 public:
     explicit InputRouter(SDL_Window* window) : window_(window) {}
 
-    /// `image` is the rectangle of the picture, `panels_want_*` whether Dear ImGui claims the pointer or the keyboard.
+    /// `image` is the rectangle of the picture, `panels_want_pointer` whether Dear ImGui claims the pointer, `panels_want_text` whether
+    /// a text field or a dialog has the keyboard.
     struct Context {
         Rect image;
         Rect view;

@@ -46,9 +46,31 @@ void step_exposure(DisplayControls& display, float step) {
 }
 
 /// Behind a folded right side it would change unseen.
-void toggle_accuracy(PanelChoice& panels) {
-    panels.accuracy = !panels.right || !panels.accuracy;
-    panels.right = true;
+void toggle_accuracy(WindowState& window) {
+    PanelChoice& panels = window.panels;
+    const bool is_seen = panels.shows_right(window.one_side);
+    panels.accuracy = !is_seen || !panels.accuracy;
+    if (!is_seen) panels.toggle_right(window.one_side);
+}
+
+/// The next one that is visible: it is opened where nothing else is.
+void next_keyed_panel(WindowState& window) {
+    window.panels.shown = true;
+    const auto is_open = [&](KeyedPanel panel) {
+        const bool right = window.panels.shows_right(window.one_side);
+        switch (panel) {
+        case KeyedPanel::Menu: return true;
+        case KeyedPanel::Settings: return window.panels.shows_settings(window.one_side);
+        case KeyedPanel::Tabs: return right && (window.panels.tabs || !window.panels.accuracy);
+        case KeyedPanel::Accuracy: return right && window.panels.accuracy;
+        }
+        return false;
+    };
+    constexpr int kPanels = 4;
+    int index = window.keyed_panel ? static_cast<int>(*window.keyed_panel) : 0;
+    do index = (index + 1) % kPanels;
+    while (!is_open(static_cast<KeyedPanel>(index)));
+    window.keyed_panel = static_cast<KeyedPanel>(index);
 }
 
 void switch_layout(WindowState& window) {
@@ -122,15 +144,18 @@ bool perform_display_action(ViewerModel& model, ActionId id) {
     case ActionId::CellsStronger: step_opacity(display, kOpacityStep); return true;
     case ActionId::Hemisphere: window.hemisphere = !window.hemisphere; return true;
     case ActionId::LobesOrDome: switch_lobe_shape(window); return true;
-    case ActionId::Accuracy: toggle_accuracy(window.panels); return true;
+    case ActionId::Accuracy: toggle_accuracy(window); return true;
     case ActionId::HidePanels: window.panels.shown = !window.panels.shown; return true;
-    case ActionId::FoldSettings: window.panels.settings = !window.panels.settings; return true;
-    case ActionId::FoldRight: window.panels.right = !window.panels.right; return true;
+    case ActionId::FoldSettings: window.panels.toggle_settings(window.one_side); return true;
+    case ActionId::FoldRight: window.panels.toggle_right(window.one_side); return true;
     case ActionId::Help: window.help = !window.help; return true;
+    case ActionId::KeyPanels: next_keyed_panel(window); return true;
+    case ActionId::About: window.about = !window.about; return true;
     case ActionId::SwitchLayout: switch_layout(window); return true;
     case ActionId::ResetWindow: window.requests.reset = true; return true;
     case ActionId::FullScreen: window.requests.full_screen = true; return true;
     case ActionId::ScreenshotWithPanels: window.requests.window_shot = true; return true;
+    case ActionId::SaveView: window.requests.view_shot = true; return true;
     case ActionId::Quit: window.requests.quit = true; return true;
     default: return false;
     }
@@ -179,6 +204,31 @@ bool perform(ViewerModel& model, const Action& action) {
     }
     return perform_render_action(model, action.id) || perform_display_action(model, action.id) ||
            perform_compare_action(model, action.id) || perform_file_action(model, action.id);
+}
+
+bool is_on(const ViewerModel& model, const Action& action) {
+    const WindowState& window = model.window();
+    if (action.method) return model.render().method() == *action.method;
+    switch (action.id) {
+    case ActionId::NextEvent: return model.render().settings().next_event;
+    case ActionId::Pause: return model.render().paused();
+    case ActionId::FollowExposure: return model.exposure().is_on();
+    case ActionId::Zoom: return !window.zoom.is_whole();
+    case ActionId::Cells: return model.display().cells();
+    case ActionId::Hemisphere: return window.hemisphere;
+    case ActionId::LobesOrDome: return window.lobe_shape == LobeShape::Dome;
+    case ActionId::PinVolume: return model.selection().pins().contains(model.selection().volume());
+    case ActionId::Flowers: return model.flowers().is_shown();
+    case ActionId::TracePaths: return model.paths().is_shown();
+    case ActionId::ShowGain: return model.gain_marks().is_shown();
+    case ActionId::ShowDiagnostics: return model.diagnostics().map() != nullptr;
+    case ActionId::Accuracy: return window.panels.shows_right(window.one_side) && window.panels.accuracy;
+    case ActionId::Turns: return model.comparison().in_turns();
+    case ActionId::MakeReference: return model.references().is_making();
+    case ActionId::PlayPath: return model.flight().is_flying();
+    case ActionId::Tour: return model.tour().phase() == GuidedTour::Phase::Running;
+    default: return false;
+    }
 }
 
 bool perform(ViewerModel& model, ActionId id) { return perform(model, info_of(id)); }

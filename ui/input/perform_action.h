@@ -9,6 +9,9 @@ namespace pl::ui {
 /// False for held keys, which InputRouter adds up.
 bool perform(ViewerModel& model, const Action& action);
 
+/// Whether what the action switches is on: menus mark it.
+bool is_on(const ViewerModel& model, const Action& action);
+
 /// An action without a parameter.
 bool perform(ViewerModel& model, ActionId id);
 

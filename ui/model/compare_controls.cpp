@@ -42,6 +42,11 @@ void CompareControls::set_mode(CompareMode mode) {
 
 void CompareControls::step_mode(int steps) { set_mode(stepped(state_.mode, steps)); }
 
+void CompareControls::end() {
+    set_turns(false);
+    set_mode(CompareMode::Off);
+}
+
 void CompareControls::flip() {
     if (state_.mode != CompareMode::Flip) set_mode(CompareMode::Flip);
     state_.shows_second = !state_.shows_second;
@@ -81,8 +86,8 @@ void CompareControls::set_turns(bool on) {
     accuracy_.set_cursor({});
     link_.begin_turns(methods);
     if (state_.mode != CompareMode::Flip && state_.mode != CompareMode::SideBySide) set_mode(CompareMode::Split);
-    messages_.say(MessageLevel::Info, fmt::format("{} and {} render in turns of equal time",
-                                                  info_of(methods[0]).label, info_of(methods[1]).label));
+    messages_.note(MessageLevel::Info, fmt::format("{} and {} render in turns of equal time",
+                                                   info_of(methods[0]).label, info_of(methods[1]).label));
 }
 
 }  // namespace pl::ui

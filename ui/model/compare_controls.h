@@ -24,6 +24,8 @@ public:
     ComparePlan plan(const Rect& view, const PictureZoom& zoom = {}) const;
     void set_mode(CompareMode mode);
     void step_mode(int steps);
+    /// The single picture of the present method, without turns.
+    void end();
     void flip();  ///< to the other side
     void choose_side(bool second, const SideChoice& choice);
     void set_split(float share);

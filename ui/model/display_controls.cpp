@@ -30,6 +30,17 @@ void DisplayControls::set_outline(bool on) {
     worker_.set_cells_wanted(cells_ || outline_);
 }
 
+const ValueRange& DisplayControls::heat_range(const PublishedFrame& frame) const {
+    if (ranged_frame_ == frame.serial && ranged_by_ == heat_rule_) return heat_range_;
+    std::vector<float> values;
+    for (const Vec3f& pixel : frame.snapshot.pixels)
+        if (std::isfinite(pixel.x)) values.push_back(pixel.x);
+    heat_range_ = range_of(values, heat_rule_);
+    ranged_by_ = heat_rule_;
+    ranged_frame_ = frame.serial;
+    return heat_range_;
+}
+
 void DisplayControls::set_low_resolution(bool allowed) {
     low_resolution_ = allowed;
     worker_.set_low_resolution_allowed(allowed);

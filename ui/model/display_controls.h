@@ -9,6 +9,7 @@
 #include <span>
 
 #include "core/kernel/base/math.h"
+#include "core/plot/value_scale.h"
 #include "ui/model/render_link.h"
 #include "ui/worker/render_worker.h"
 
@@ -33,6 +34,11 @@ public:
     /// Whether the selected volume's outline is drawn, which needs the image of the volumes' cells like the tint.
     void set_outline(bool on);
 
+    /// Colors of heat maps. One pixel in a hundred may be an outlier.
+    RangeRule& heat_rule() { return heat_rule_; }
+    /// Of a frame that shows_heat(); found once for each frame and rule.
+    const ValueRange& heat_range(const PublishedFrame& frame) const;
+
     /// Coarser pictures while the camera moves.
     bool low_resolution() const { return low_resolution_; }
     void set_low_resolution(bool allowed);
@@ -46,6 +52,10 @@ private:
     bool cells_ = false;
     bool outline_ = false;
     float cells_opacity_ = kStandardOpacity;
+    RangeRule heat_rule_{.scale = ColorScale::Linear, .high_percent = 99.0f};
+    mutable ValueRange heat_range_{};
+    mutable RangeRule ranged_by_{};           ///< the rule of heat_range_
+    mutable std::uint64_t ranged_frame_ = 0;  ///< serial of its frame
     bool low_resolution_ = true;
     bool preview_ = true;
 };

@@ -110,7 +110,7 @@ void FieldFlowers::set_shown(bool shown) {
     job_.reset();
     begun_.reset();
     flowers_.reset();
-    mesh_ = {};
+    meshes_ = {};
 }
 
 /// The shown key frame, for the present the newest.
@@ -127,8 +127,8 @@ void FieldFlowers::update() {
         if (!result) return;
         job_.reset();
         flowers_ = result->value->key.flowers;
-        mesh_ = *result->value;
-        if (mesh_.key.scene != nullptr) ++times_made_;
+        meshes_ = {*result->value, {}};
+        if (meshes_[0].key.scene != nullptr) ++times_made_;
     }
     const std::shared_ptr<const FieldKeyFrame> next = wanted();
     if (next == nullptr) flowers_.reset();
@@ -136,7 +136,7 @@ void FieldFlowers::update() {
     begun_ = next;
     begun_step_ = step_;
     job_ = std::make_unique<BackgroundJob<Made>>([next, step = step_, diagonal = link_.frame()->facts.diagonal,
-                                                  seen_from = mesh_.key](const JobMonitor& monitor) {
+                                                  seen_from = meshes_[0].key](const JobMonitor& monitor) {
         MeshKey key = seen_from;
         key.flowers = std::make_shared<const FlowerField>(make_flowers(*next, step, diagonal, monitor.stop));
         return std::make_shared<const Mesh>(make_mesh(std::move(key)));
@@ -167,10 +167,12 @@ const ScreenMesh& FieldFlowers::mesh(const PublishedFrame& frame, const Rect& im
                 .scene = frame.scene,
                 .camera = {camera.eye, camera.target, camera.up},
                 .view = {camera.fov_deg, width, height, image.x, image.y, image.width, image.height}};
-    if (key == mesh_.key) return mesh_.triangles;
+    for (const Mesh& mesh : meshes_)
+        if (key == mesh.key) return mesh.triangles;
     if (flowers_ != nullptr) ++times_made_;
-    mesh_ = make_mesh(std::move(key));
-    return mesh_.triangles;
+    meshes_[1] = std::move(meshes_[0]);
+    meshes_[0] = make_mesh(std::move(key));
+    return meshes_[0].triangles;
 }
 
 }  // namespace pl::ui

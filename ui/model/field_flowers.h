@@ -80,7 +80,7 @@ public:
     /// The triangles for a picture in `image`; made again only when field, scene, camera or window have changed: those of another
     /// field in the background, with the field.
     const ScreenMesh& mesh(const PublishedFrame& frame, const Rect& image);
-    const FlowerCounts& counts() const { return mesh_.counts; }
+    const FlowerCounts& counts() const { return meshes_[0].counts; }
     /// Number of times that the triangles were made.
     std::uint64_t times_made() const { return times_made_; }
 
@@ -114,7 +114,7 @@ private:
     std::shared_ptr<const FieldKeyFrame> begun_;
     int begun_step_ = 0;
     std::shared_ptr<const FlowerField> flowers_;
-    Mesh mesh_;
+    std::array<Mesh, 2> meshes_{};  ///< the newest first: compared pictures have a place each
     std::uint64_t times_made_ = 0;
     std::unique_ptr<BackgroundJob<Made>> job_;
 };

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/io/field_file.h"
+#include "core/io/files.h"
 #include "core/io/scene_materials.h"
 #include "ui/model/file_names.h"
 
@@ -91,6 +92,17 @@ void PictureFiles::write_unsaved() {
             return [this, path] { messages_.say(MessageLevel::Info, "saved " + path.string()); };
         });
     }
+}
+
+void PictureFiles::save_plot(const std::string& svg, const std::string& csv) {
+    const std::filesystem::path name = names_.next(scene_, "plot", {".svg", ".csv"});
+    jobs_.push([this, name, svg, csv]() -> Jobs::Report {
+        write_text_file_atomic(name.string() + ".svg", svg);
+        write_text_file_atomic(name.string() + ".csv", csv);
+        return [this, name] {
+            messages_.say(MessageLevel::Info, fmt::format("saved {0}.svg and {0}.csv", name.string()));
+        };
+    });
 }
 
 void PictureFiles::save_window(ByteImage pixels, std::filesystem::path path) {

@@ -34,6 +34,9 @@ public:
     void save_as(const std::filesystem::path& path);
     /// Pixels of the window, which only the window can read.
     void save_window(ByteImage pixels, std::filesystem::path path);
+    std::filesystem::path next_view_shot() { return names_.next(scene_, "view", {".png"}).string() + ".png"; }
+    /// The curves of the accuracy panel, as SVG and as CSV.
+    void save_plot(const std::string& svg, const std::string& csv);
     std::filesystem::path next_window_shot() { return names_.next(scene_, "window", {".png"}).string() + ".png"; }
 
     /// The picture in the window with its settings.

@@ -13,30 +13,32 @@ enum Step { kSplit, kPick, kDisc, kKnob, kFly, kPays, kStepCount };
 
 constexpr std::array<TourStep, kStepCount> kSteps{{
     {"One scene, two methods, the same time",
-     "Light enters this room through the gap of a door. Both halves of the picture get the same time: the left "
-     "one by "
+     "Light enters this room through the gap of a door. Both halves of the picture get the same time: the left one "
+     "by "
      "Reinforcement, which learns while it renders, the right one by Default, which does not.",
-     "Drag the line between the halves.", "split line"},
+     "Drag the line between the halves.", "", "split line"},
     {"Where light comes from",
      "The surfaces are divided among radiance volumes. Each one learns from which directions light arrives.",
-     "Click the floor or a wall in the picture.", TourStep::kPicture},
+     "Click the floor or a wall in the picture.",
+     "The outline is the part of the surface that this volume serves. The lobe on it is long where its paths leave "
+     "often.",
+     TourStep::kPicture},
     {"The directions of one volume",
      "The disc has a cell for every direction above the surface; its middle points straight away from the surface, "
-     "its rim along it. Bright cells are those of bright light, as learned so far; paths leave through them more "
-     "often.",
-     "Point at a bright cell, and see its ray in the picture.", "learned disc"},
-    {"Another scene is learned anew",
-     "The knob moves the door. That is another scene: the pictures and all that was learned begin again.",
-     "Drag the knob 'opening'.", "opening"},
-    {"Another view is not",
-     "What was learned belongs to the scene, not to the picture. When the camera moves, only the pictures begin "
-     "again.",
-     "Hold W or S for a moment, or drag the picture to look around.", TourStep::kPicture},
+     "its rim along it. Bright cells are those of bright light, as learned so far.",
+     "Point at a bright cell, and see its ray in the picture.",
+     "The ray ends where that light comes from. Paths leave through bright cells more often.", "learned disc"},
+    {"Another scene is learned anew", "The knob moves the door. That is another scene with other light.",
+     "Drag the knob 'opening'.", "Both pictures have begun again, and so has all that was learned.", "opening"},
+    {"Another view is not", "What was learned belongs to the scene, not to the picture.",
+     "Drag the picture to look around.",
+     "Both pictures have begun again, but the left half knew the light already. Next brings the camera back.",
+     TourStep::kPicture},
     {"Does learning pay?",
-     "Not everywhere. The table compares the runs at equal time: above 1x learning gains, below 1x it loses. With "
-     "light "
-     "samples every vertex also tests a point on a light, and the result may be another one.",
-     "Press L for light samples, and compare.", "accuracy panel"},
+     "Not everywhere. With light samples every vertex also tests a point on a light; then both halves find light "
+     "without luck.",
+     "Wait until the table has a gain. Then press L for light samples, and wait for the second one.", "",
+     "accuracy panel"},
 }};
 
 bool is_same_view(const CameraDescription& a, const CameraDescription& b) {
@@ -46,6 +48,11 @@ bool is_same_view(const CameraDescription& a, const CameraDescription& b) {
 /// Whether the scene of the window is rendered at the full size.
 bool is_at_rest(const ViewerModel& model) {
     return model.status().picture != 0 && model.status().scene->source == model.scene().materials().file()->source;
+}
+
+bool has_both_gains(const ViewerModel& model) {
+    const RunTable& table = model.comparison().accuracy().table();
+    return learning_row(table, false) != nullptr && learning_row(table, true) != nullptr;
 }
 
 }  // namespace
@@ -89,16 +96,27 @@ void GuidedTour::prepare(ViewerModel& model) {
 void GuidedTour::start_step(const ViewerModel& model) {
     before_ = {.split = model.comparison().state().split,
                .knobs = model.scene().shown().knobs,
-               .camera = model.camera().camera(),
-               .next_event = model.render().settings().next_event};
+               .camera = model.camera().camera()};
     done_since_ = -1.0;
+    is_seen_ = false;
 }
 
-void GuidedTour::skip_step(ViewerModel& model) {
-    if (phase_ != Phase::Running) return;
-    step_ = (step_ + 1) % kStepCount;
-    if (step_ == 0) phase_ = Phase::Finished;
+/// The view of the step before comes back: the next step is about what it shows.
+void GuidedTour::change_step(ViewerModel& model, int step) {
+    if (step_ == kFly && !is_same_view(model.camera().camera(), before_.camera)) model.camera().set(before_.camera);
+    step_ = step;
+    forgets_ = step_ == kPays;  // both gains count all that learning costs
     start_step(model);
+}
+
+void GuidedTour::next_step(ViewerModel& model) {
+    if (phase_ != Phase::Running) return;
+    if (step_ + 1 == kStepCount) phase_ = Phase::Finished;
+    change_step(model, (step_ + 1) % kStepCount);
+}
+
+void GuidedTour::last_step(ViewerModel& model) {
+    if (phase_ == Phase::Running && step_ > 0) change_step(model, step_ - 1);
 }
 
 void GuidedTour::leave() {
@@ -113,7 +131,7 @@ bool GuidedTour::is_done(const ViewerModel& model) const {
     case kDisc: return model.selection().hovered_cell() >= 0;
     case kKnob: return model.scene().shown().knobs != before_.knobs;
     case kFly: return !model.camera().is_moving() && !is_same_view(model.camera().camera(), before_.camera);
-    case kPays: return model.render().settings().next_event != before_.next_event;
+    case kPays: return has_both_gains(model);
     case kStepCount: break;
     }
     return false;
@@ -132,12 +150,35 @@ void GuidedTour::update(ViewerModel& model, double seconds) {
         leave();
         return;
     }
+    if (forgets_ && !model.camera().is_moving() && is_at_rest(model)) {
+        model.render().forget();
+        forgets_ = false;
+    }
     if (!is_done(model))
         done_since_ = -1.0;
     else if (done_since_ < 0.0)
         done_since_ = seconds;
     else if (seconds - done_since_ >= kRestSeconds)
-        skip_step(model);
+        is_seen_ = true;
+}
+
+std::string lesson_text(const ViewerModel& model) {
+    const RunTable& table = model.comparison().accuracy().table();
+    const auto factor = [&](bool next_event) {
+        const RunRow* const row = learning_row(table, next_event);
+        return row != nullptr ? ahead_text(*row) : std::string("not measured");
+    };
+    return fmt::format("In this room Reinforcement is, after the same time, without light samples: {}; with light "
+                       "samples: {}.",
+                       factor(false), factor(true));
+}
+
+std::string seen_text(const ViewerModel& model, int step) {
+    if (step == kPays) return lesson_text(model);
+    if (step != kSplit) return kSteps[static_cast<std::size_t>(step)].seen;
+    return turns_headline(model.comparison().accuracy().table(), {learning_method(), baseline_method()},
+                          model.render().settings().next_event)
+        .text;
 }
 
 std::string state_text(const GuidedTour& tour) {

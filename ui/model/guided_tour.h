@@ -1,5 +1,5 @@
-// The guided tour: six steps in the scene `door`, each done by the user's own click or key. It changes settings only where it
-// begins, and can be left and continued at any time.
+// The guided tour: six steps in the scene `door`, each done by the user's own click or key, and followed by what was seen. It changes
+// settings only where it begins, and can be left and continued at any time.
 #pragma once
 
 #include <span>
@@ -15,6 +15,7 @@ struct TourStep {
     const char* title;
     const char* text;   ///< the meaning of the highlighted part
     const char* task;   ///< the click or key that completes the step
+    const char* seen;   ///< what it has shown; empty if that is measured, see seen_text()
     const char* place;  ///< label of the control to be highlighted, see note_place(); kPicture for the picture
 
     static constexpr const char* kPicture = "picture";
@@ -24,7 +25,7 @@ std::span<const TourStep> tour_steps();
 class GuidedTour {
 public:
     static constexpr const char* kScene = "door";
-    /// A step is complete when its task has been done for this time: a drag goes on for a while.
+    /// A task is done when it has been done for this time: a drag goes on for a while.
     static constexpr double kRestSeconds = 1.0;
 
     enum class Phase {
@@ -48,7 +49,11 @@ public:
     /// Begins, or continues where it was left: opens the scene if it is another one, and lets the method that learns and the
     /// baseline render in turns of equal time, without light samples, split.
     void begin(ViewerModel& model);
-    void skip_step(ViewerModel& model);
+    /// One step on, also before its task is done; after the last one the last page.
+    void next_step(ViewerModel& model);
+    void last_step(ViewerModel& model);
+    /// The task of the step has been done.
+    bool is_seen() const { return is_seen_; }
     void leave();
 
     /// Once per frame of the window, with its clock.
@@ -60,10 +65,10 @@ private:
         float split = 0.0f;
         KnobValues knobs{};
         CameraDescription camera{};
-        bool next_event = false;
     };
 
     void prepare(ViewerModel& model);
+    void change_step(ViewerModel& model, int step);
     void start_step(const ViewerModel& model);
     bool is_done(const ViewerModel& model) const;
 
@@ -72,7 +77,14 @@ private:
     bool is_answered_ = false;
     Before before_;
     double done_since_ = -1.0;  ///< negative: not done
+    bool is_seen_ = false;
+    bool forgets_ = false;  ///< as soon as the picture has its full size: coarse passes train the field on no clock
 };
+
+/// What a step has shown, once its task is done: measured where that can be.
+std::string seen_text(const ViewerModel& model, int step);
+/// The factors of learning in the scene of the tour as measured, without and with light samples.
+std::string lesson_text(const ViewerModel& model);
 
 /// "off", "offered", "opening", "1" to "6", "finished".
 std::string state_text(const GuidedTour& tour);

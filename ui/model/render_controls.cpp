@@ -10,11 +10,9 @@
 
 namespace pl::ui {
 
-RenderControls::RenderControls(const ModelServices& services, CameraMotion& camera, Selection& selection,
-                               const RenderSettings& settings)
+RenderControls::RenderControls(const ModelServices& services, CameraMotion& camera, const RenderSettings& settings)
     : messages_(services.messages), link_(services.link), worker_(link_.worker()), camera_(camera),
-      selection_(selection), settings_(settings), limits_(services.options.limits),
-      previous_method_(baseline_method()) {}
+      settings_(settings), limits_(services.options.limits), previous_method_(baseline_method()) {}
 
 RenderSettings RenderControls::settings() const {
     RenderSettings settings = settings_;
@@ -90,8 +88,6 @@ void RenderControls::set_mixture(MixtureSettings mixture) {
 void RenderControls::set_field(const FieldSettings& field) {
     if (field == settings_.field || !is_served(field, wanted_backend())) return;
     settings_.field = field;
-    selection_.deselect();
-    selection_.pins().clear();
     worker_.submit(EditField{field});
 }
 
@@ -103,8 +99,6 @@ void RenderControls::set_size(int width, int height) {
 }
 
 void RenderControls::adopt_field(const std::shared_ptr<LearnedField>& field) {
-    selection_.deselect();
-    selection_.pins().clear();
     link_.end_turns(settings_.method);
     if (field->method != settings_.method) previous_method_ = settings_.method;
     settings_.method = field->method;

@@ -11,8 +11,7 @@ namespace pl::ui {
 
 class RenderControls {
 public:
-    RenderControls(const ModelServices& services, CameraMotion& camera, Selection& selection,
-                   const RenderSettings& settings);
+    RenderControls(const ModelServices& services, CameraMotion& camera, const RenderSettings& settings);
 
     /// With the camera of the window.
     RenderSettings settings() const;
@@ -63,7 +62,6 @@ private:
     RenderLink& link_;
     RenderWorker& worker_;
     CameraMotion& camera_;
-    Selection& selection_;
     RenderSettings settings_;  ///< its camera is not kept: CameraMotion has it
     SampleLimits limits_;
     MethodId previous_method_;

@@ -1,10 +1,12 @@
-// The surface point, radiance volume and material that a click in the picture selects.
+// The surface point, radiance volume and material that a click in the picture selects. Volumes are kept by the point: another field or
+// another placement may give them other numbers.
 #pragma once
 
 #include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "ui/model/display_controls.h"
@@ -24,12 +26,13 @@ public:
 
     explicit PinnedVolumes(RenderWorker& worker) : worker_(worker) {}
 
-    /// Pins a volume, or unpins it. False if all places are taken.
-    bool toggle(std::int32_t volume) {
+    /// Pins the volume at a place, or unpins it. False if all places are taken.
+    bool toggle(std::int32_t volume, const SurfacePlace& at = {}) {
         const auto pinned = std::ranges::find(places_, volume);
         const auto place = pinned != places_.end() ? pinned : std::ranges::find(places_, kNoVolume);
         if (place == places_.end()) return false;
         *place = pinned != places_.end() ? kNoVolume : volume;
+        at_[static_cast<std::size_t>(place - places_.begin())] = at;
         send();
         return true;
     }
@@ -37,9 +40,20 @@ public:
         places_.fill(kNoVolume);
         send();
     }
+    /// Where the pinned volumes were pinned, by color.
+    const std::array<SurfacePlace, kMost>& at() const { return at_; }
+    /// The volumes that were pinned there are these now.
+    void renumber(std::span<const FoundVolume> found) {
+        for (std::size_t pin = 0; pin < kMost; ++pin)
+            if (const auto now = std::ranges::find(found, at_[pin], &FoundVolume::at);
+                places_[pin] != kNoVolume && now != found.end())
+                places_[pin] = now->volume;
+        send();
+    }
 
     /// By color; kNoVolume where no volume is pinned.
     const std::array<std::int32_t, kMost>& places() const { return places_; }
+    bool is_empty() const { return places_ == kNone; }
     bool contains(std::int32_t volume) const {
         return volume != kNoVolume && std::ranges::find(places_, volume) != places_.end();
     }
@@ -56,6 +70,7 @@ private:
 
     RenderWorker& worker_;
     std::array<std::int32_t, kMost> places_ = kNone;
+    std::array<SurfacePlace, kMost> at_{};
 };
 
 class Selection {
@@ -84,17 +99,15 @@ public:
     bool take_new_volume();
     /// The point and the volume, also of a click that is not answered yet; the material stays.
     void deselect();
-    /// The volume and the pinned ones, because their numbers may be invalid.
-    void drop_volume() {
-        pins_.clear();
-        select(kNoVolume);
-    }
     PinnedVolumes& pins() { return pins_; }
     const PinnedVolumes& pins() const { return pins_; }
     /// Pins the selected volume, or unpins it.
     void toggle_pin();
-    /// A volume by its number, as by a click on it.
-    void select_volume(std::int32_t volume) { select(volume); }
+    /// A volume by its number, as by a click on it at this place.
+    void select_volume(std::int32_t volume, const SurfacePlace& at = {}) {
+        at_ = at;
+        select(volume);
+    }
 
     const std::optional<std::uint32_t>& material() const { return material_; }
     void select_material(std::uint32_t index) { material_ = index; }
@@ -106,6 +119,8 @@ public:
 
 private:
     void select(std::int32_t volume);
+    void take_pick();
+    void find_again();
 
     RenderLink& link_;
     DisplayControls& display_;
@@ -113,6 +128,9 @@ private:
     std::optional<PickedPoint> picked_;
     std::optional<std::uint32_t> material_;
     std::int32_t volume_ = kNoVolume;
+    SurfacePlace at_{};                  ///< where it was selected: it is found there again among other volumes
+    std::uint64_t placement_ = 0;        ///< WorkerStatus::placement of the numbers
+    std::uint64_t asked_placement_ = 0;  ///< in which the places were last asked for
     int hovered_cell_ = -1;
     bool is_new_ = false;
     bool awaits_pick_ = false;  ///< the newest click has not been taken back

@@ -101,16 +101,6 @@ std::string shown_name(const MaterialDescription& material, std::uint32_t index)
     return material.name.empty() ? fmt::format("material {}", index) : material.name;
 }
 
-bool may_move_volumes(const MaterialDescription& before, const MaterialDescription& after) {
-    const auto is_plain = [](const MaterialDescription& m) {
-        return m.kind == SurfaceKind::Diffuse && !m.textures.any();
-    };
-    const glm::vec3 black{0.0f};
-    return !is_plain(before) || !is_plain(after) || before.emission != after.emission ||
-           before.two_sided_emission != after.two_sided_emission ||
-           (before.albedo == black) != (after.albedo == black);
-}
-
 namespace {
 
 /// Means the same in every working directory.
@@ -203,9 +193,11 @@ void ViewedScene::finish(const LoadOrder& order, std::shared_ptr<const SceneDesc
 }
 
 void ViewedScene::adopt(const LoadOrder& order, std::shared_ptr<const SceneDescription> scene) {
-    selection_.deselect();
-    selection_.pins().clear();
-    selection_.drop_material();
+    if (order.reason == LoadReason::Open) {
+        selection_.deselect();
+        selection_.pins().clear();
+        selection_.drop_material();
+    }
     materials_.open(scene);
     watch_.watch(files_of(*scene));
     name_ = order.scene.name;
@@ -217,8 +209,6 @@ void ViewedScene::adopt(const LoadOrder& order, std::shared_ptr<const SceneDescr
 }
 
 void ViewedScene::adopt_again(const LoadOrder& order, std::shared_ptr<const SceneDescription> scene) {
-    selection_.deselect();
-    selection_.pins().clear();
     materials_.reopen(scene);
     watch_.watch(files_of(*scene));
     if (!order.changed.empty()) {
@@ -253,7 +243,6 @@ void ViewedScene::set_material(std::uint32_t index, const MaterialDescription& m
         messages_.say(MessageLevel::Error, error.what());
         return;
     }
-    if (may_move_volumes(before, material)) selection_.drop_volume();
     camera_.touch();
     link_.worker().submit(EditMaterial{index, material});
 }

@@ -116,10 +116,6 @@ private:
 /// Its name in lists: files may omit names.
 std::string shown_name(const MaterialDescription& material, std::uint32_t index);
 
-/// Whether the change may move radiance volumes; the number of the selected one is then invalid. See
-/// same_placement().
-bool may_move_volumes(const MaterialDescription& before, const MaterialDescription& after);
-
 class ViewedScene {
 public:
     ViewedScene(const ModelServices& services, CameraMotion& camera, Selection& selection,

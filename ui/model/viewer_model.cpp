@@ -26,8 +26,7 @@ ViewerModel::ViewerModel(const ViewerOptions& options, std::shared_ptr<const Sce
     : jobs_(messages_), link_(worker_setup(options, scene, settings, load_seconds)),
       display_(options.display, link_.worker()),
       camera_(options.settings.camera, CameraControls(settings.camera, bounds_of(*scene).diagonal()), link_.worker()),
-      selection_(link_, display_, messages_),
-      render_({options, messages_, jobs_, link_}, camera_, selection_, settings),
+      selection_(link_, display_, messages_), render_({options, messages_, jobs_, link_}, camera_, settings),
       scene_({options, messages_, jobs_, link_}, camera_, selection_, scene),
       references_({options, messages_, jobs_, link_}, render_, scene_),
       comparison_(link_, messages_, render_, references_), diagnostics_(link_, messages_, render_),
@@ -66,6 +65,7 @@ void ViewerModel::update(double seconds) {
     for (const WorkerMessage& message : link_.worker().take_messages())
         messages_.say(message.is_error ? MessageLevel::Error : MessageLevel::Info, message.text);
     if (link_.frame()) effects_.update(*link_.frame());
+    outside_.update(link_.frame());
     selection_.update();
     files_.fields().update();
     diagnostics_.update();
@@ -91,16 +91,21 @@ bool ViewerModel::busy() const {
 
 std::string ViewerModel::title() const {
     const std::string back_end = frame() != nullptr ? back_end_label(status().backend) : "starting";
-    std::string text = fmt::format("{} spp - {}, {} - {} - {}", status().passes, info_of(render_.method()).label,
-                                   light_samples_text(render_.settings().next_event), back_end, scene_.name());
+    std::string text =
+        fmt::format("{} spp - {}, {} - {} - {}", status().passes, method_text(render_.settings(), render_.method()),
+                    light_samples_text(render_.settings().next_event), back_end, scene_.name());
     if (status().state == WorkerState::Done) text = "done: " + text;
     if (status().state == WorkerState::Paused) text = "paused: " + text;
-    return text;
+    return text + " - pathlight";
 }
 
 void ViewerModel::cancel() {
-    if (window_.help)
+    if (window_.keyed_panel)
+        window_.keyed_panel.reset();
+    else if (window_.help)
         window_.help = false;
+    else if (window_.about)
+        window_.about = false;
     else if (open_dialog_.is_shown())
         open_dialog_.is_shown() = false;
     else if (self_test_.is_shown() && self_test_.run().is_running())
@@ -125,8 +130,8 @@ void ViewerModel::cancel() {
         tour_.leave();
     else if (selection_.volume() != kNoVolume)
         selection_.deselect();
-    else if (comparison_.state().mode != CompareMode::Off)
-        comparison_.set_mode(CompareMode::Off);
+    else if (comparison_.in_turns() || comparison_.state().mode != CompareMode::Off)
+        comparison_.end();
     else if (!window_.panels.shown)
         window_.panels.shown = true;
     else

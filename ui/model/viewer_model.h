@@ -14,6 +14,7 @@
 #include "ui/model/gain_marks.h"
 #include "ui/model/guided_tour.h"
 #include "ui/model/open_dialog.h"
+#include "ui/model/outside_view.h"
 #include "ui/model/path_explorer.h"
 #include "ui/model/self_test.h"
 #include "ui/model/window_state.h"
@@ -68,6 +69,7 @@ public:
     const OpenDialog& open_dialog() const { return open_dialog_; }
     GuidedTour& tour() { return tour_; }
     const GuidedTour& tour() const { return tour_; }
+    const OutsideView& outside() const { return outside_; }
     LearningTime& time() { return time_; }
     const LearningTime& time() const { return time_; }
     FieldFlowers& flowers() { return flowers_; }
@@ -92,6 +94,10 @@ public:
     bool busy() const;
     /// The window's title.
     std::string title() const;
+    /// Whether a dialog lies over the window: it has the keyboard.
+    bool has_dialog() const {
+        return window_.help || window_.about || open_dialog_.is_shown() || self_test_.is_shown();
+    }
     /// Closes, stops or deselects the topmost of all that can be: the action of Esc.
     void cancel();
 
@@ -114,6 +120,7 @@ private:
     OpenDialog open_dialog_;
     GuidedTour tour_;
     PathExplorer paths_;
+    OutsideView outside_;
     LearningTime time_;
     FieldFlowers flowers_;
     GainMarks gain_marks_;

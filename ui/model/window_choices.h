@@ -29,6 +29,12 @@ inline constexpr auto kChoices<ui::LobeShape> = std::to_array<ChoiceInfo<ui::Lob
 });
 
 template <>
+inline constexpr auto kChoices<ui::Theme> = std::to_array<ChoiceInfo<ui::Theme>>({
+    {ui::Theme::Dark, "dark", "dark"},
+    {ui::Theme::Light, "light", "light"},
+});
+
+template <>
 inline constexpr auto kChoices<ui::CellQuantity> = std::to_array<ChoiceInfo<ui::CellQuantity>>({
     {ui::CellQuantity::Radiance, "radiance", "radiance Q", "incident radiance"},
     {ui::CellQuantity::Probability, "probability", "probability P", "in the table"},

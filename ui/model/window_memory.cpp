@@ -11,6 +11,7 @@
 namespace pl::ui {
 namespace {
 
+constexpr std::array<const char*, 2> kThemeNames{"dark", "light"};
 constexpr std::array<const char*, 2> kLayoutNames{"explore", "research"};
 constexpr std::array<const char*, kErrorMetricCount> kMetricNames{"relmse", "relmse-trimmed", "mse", "smape",
                                                                   "noise"};
@@ -141,6 +142,7 @@ void write_memory(const WindowMemory& memory, Json& document) {
                               {"height", place->height},
                               {"maximized", place->maximized}};
     document["ui_scale"] = short_decimal(memory.ui_scale);
+    document["theme"] = kThemeNames[static_cast<std::size_t>(memory.theme)];
     document["layout"] = name_of(memory.layout);
     document["panels"] = panels_json(memory.panels);
     document["display"] = {{"hemisphere", memory.hemisphere},
@@ -159,6 +161,7 @@ WindowMemory memory_in(const Json& document, const WindowMemory& first, const st
     memory.place = place_in(file);
     if (const Json* scale = file.find("ui_scale"); scale != nullptr && *scale != 0)
         file.read("ui_scale", memory.ui_scale, kLeastUiScale, kMostUiScale);
+    file.read("theme", memory.theme, kThemeNames);
     file.read("layout", memory.layout, kLayoutNames);
     read_panels(file.object("panels"), memory.panels);
     const Members display = file.object("display");
@@ -179,6 +182,7 @@ WindowMemory memory_in(const Json& document, const WindowMemory& first, const st
 WindowMemory memory_of(const ViewerModel& model, const WindowMemory& before) {
     WindowMemory memory = before;
     const WindowState& window = model.window();
+    memory.theme = window.theme;
     memory.layout = window.layout;
     memory.panels = window.panels;
     memory.panels.shown = true;
@@ -196,6 +200,7 @@ WindowMemory memory_of(const ViewerModel& model, const WindowMemory& before) {
 
 void restore(const WindowMemory& memory, ViewerModel& model) {
     WindowState& window = model.window();
+    window.theme = memory.theme;
     window.layout = memory.layout;
     window.panels = memory.panels;
     window.hemisphere = memory.hemisphere;
@@ -221,7 +226,8 @@ bool is_there(const std::filesystem::path& file) {
 
 RememberedWindow::RememberedWindow(std::filesystem::path file, const WindowMemory& first)
     : file_(std::move(file)), last_(first) {
-    if (!file_.empty() && is_there(file_)) {
+    is_new_ = !file_.empty() && !is_there(file_);
+    if (!file_.empty() && !is_new_) {
         try {
             Json document = read_json_file(file_, kWindowMemorySchema);
             last_ = read_members(file_, [&] { return memory_in(document, first, file_); });

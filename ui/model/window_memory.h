@@ -22,6 +22,7 @@ class ViewerModel;
 struct WindowMemory {
     std::optional<WindowPlace> place;
     float ui_scale = 0.0f;  ///< 0: by the screen
+    Theme theme = Theme::Dark;
     WindowLayout layout = WindowLayout::Explore;
     PanelChoice panels;  ///< without `shown`: a start never hides all panels
     bool hemisphere = true;
@@ -65,6 +66,8 @@ public:
 
     /// The state that was read, or that was written last.
     const WindowMemory& last() const { return last_; }
+    /// Whether there was no file, of a program that remembers: a first start.
+    bool is_new() const { return is_new_; }
     /// Why the file was not taken; empty if it was, or if there is none.
     const std::string& problem() const { return problem_; }
 
@@ -84,6 +87,7 @@ private:
     std::filesystem::path file_;
     Json document_ = Json::object();  ///< with members that this version does not know
     std::string problem_;
+    bool is_new_ = false;
     WindowMemory last_;
     WindowMemory waiting_;  ///< not written yet
     double changed_at_ = 0.0;

@@ -7,6 +7,7 @@
 #include "ui/draw/layout.h"
 #include "ui/draw/lobes.h"
 #include "ui/draw/picture_zoom.h"
+#include "ui/draw/theme.h"
 #include "ui/plot/plot_view.h"
 
 namespace pl::ui {
@@ -42,6 +43,9 @@ struct PlotState {
     Rect frame;              ///< the rectangle of its curves
 };
 
+/// In the order of the key.
+enum class KeyedPanel { Menu, Settings, Tabs, Accuracy };
+
 /// How much of the settings and displays is shown.
 enum class WindowLayout {
     Explore,   ///< the panels that a newcomer needs
@@ -52,6 +56,7 @@ enum class WindowLayout {
 struct WindowRequests {
     bool full_screen = false;
     bool window_shot = false;
+    bool view_shot = false;  ///< the picture with everything that is drawn over it
     bool quit = false;
     bool reset = false;     ///< everything as at a first start
     bool zoom = false;      ///< 1:1 around the pointer, or the whole picture
@@ -61,7 +66,11 @@ struct WindowRequests {
 struct WindowState {
     WindowLayout layout = WindowLayout::Research;
     PanelChoice panels;
+    bool one_side = false;  ///< Layout::one_side of the window now
     bool help = false;
+    bool about = false;
+    /// The panel that has the keyboard: arrows move between its controls, Enter and Space use them.
+    std::optional<KeyedPanel> keyed_panel{};
     bool hemisphere = true;                  ///< of the selected volume and the pinned ones, in the picture
     LobeShape lobe_shape = LobeShape::Lobe;  ///< of that
     bool values_shown = false;               ///< something shows values of the picture
@@ -69,6 +78,7 @@ struct WindowState {
     bool magnifier = false;                  ///< beside the pointer
     std::optional<PointedPixel> pointed{};   ///< the pixel under the pointer; empty away from the picture
     float ui_scale = 1.0f;
+    Theme theme = Theme::Dark;
     CellDisplay cell_display;
     PlotState plot;
     WindowRequests requests;

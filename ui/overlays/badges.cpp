@@ -5,9 +5,11 @@
 #include "core/kernel/film/heat_color.h"
 #include "ui/compare/half_image.h"
 #include "ui/draw/imgui_draw.h"
+#include "ui/draw/picture.h"
 #include "ui/draw/style.h"
 #include "ui/draw/value_text.h"
 #include "ui/draw/widgets.h"
+#include "ui/input/actions.h"
 #include "ui/overlays/overlays.h"
 
 namespace pl::ui {
@@ -20,6 +22,7 @@ public:
         : list_(*ImGui::GetBackgroundDrawList()), corner_(corner), left_(corner.x), right_(right) {}
 
     void add(const std::string& text, ImU32 color) {
+        gui_memory().badges += text + "; ";
         const ImVec2 pad{em(0.45f), em(0.2f)};
         const ImVec2 size = ImGui::CalcTextSize(text.c_str());
         const float width = size.x + 2.0f * pad.x;
@@ -60,18 +63,24 @@ private:
     float right_;
 };
 
-/// Whether guiding pays in this picture, by the variance of single paths that both methods have traced: not by the error of the picture,
-/// which even numbers lower for the baseline, too. Guiding that pays with a ratio below 1 has found hidden light, see GuidingChoice.
-void add_guiding_badge(BadgeRow& row, const GuidingStatus& guiding) {
-    const std::string ratio = ratio_text(*guiding.variance_ratio);
-    if (guiding.pays)
-        row.add(*guiding.variance_ratio < 1.0 ? "guiding pays: it finds light that Default misses"
-                                              : fmt::format("guiding pays: {}x less variance of a path", ratio),
-                colors::kGood);
+bool is_given_up(const PublishedFrame& frame) {
+    const auto& guiding = frame.snapshot.guiding;
+    return guiding && guiding->variance_ratio && !guiding->pays;
+}
+
+/// Whether guiding pays in this picture, as its paths predict: the error of the picture is measured against the baseline elsewhere.
+/// Guiding that pays with a ratio below 1 has found hidden light, see GuidingChoice.
+void add_guiding_badge(BadgeRow& row, const PublishedFrame& frame) {
+    const auto& guiding = frame.snapshot.guiding;
+    if (!guiding || !guiding->variance_ratio) return;
+    const std::string shared =
+        guiding->unguided_passes > 0 ? fmt::format(": {} by Default", passes_text(guiding->unguided_passes)) : "";
+    if (!guiding->pays)
+        row.add("guiding given up" + shared, colors::kWarning);
     else
-        row.add(fmt::format("guiding given up: only {}x less variance of a path, {} by Default", ratio,
-                            passes_text(guiding.unguided_passes)),
-                colors::kWarning);
+        row.add((*guiding->variance_ratio < 1.0 ? "guiding finds light that Default misses" : "guiding pays") +
+                    shared,
+                colors::kGood);
 }
 
 /// Light that the scene's files do not have, or its lack.
@@ -80,18 +89,17 @@ void add_light_badge(BadgeRow& row, SceneLight light) {
     if (light == SceneLight::None) row.add("no light in this scene", colors::kWarning);
 }
 
-void add_picture_badges(BadgeRow& row, const PublishedFrame& frame) {
+void add_picture_badges(BadgeRow& row, const ViewerModel& model, const PublishedFrame& frame) {
     const Snapshot& snapshot = frame.snapshot;
     const View view = snapshot.slot.view;
     const std::string back_end = back_end_label(frame.backend.name);
     if (view == View::Beauty || view == View::RadianceMap)
-        row.add(fmt::format("{}, {}  {}  {} spp  {}", info_of(snapshot.slot.method).label,
+        row.add(fmt::format("{}, {}  {}  {} spp  {}", method_text(frame.settings, snapshot.slot.method),
                             light_samples_text(frame.settings.next_event), back_end, snapshot.passes,
                             short_seconds(work_seconds(snapshot.clocks))),
                 colors::kText);
     else
         row.add(fmt::format("{}  {}  {} spp", info_of(view).label, back_end, snapshot.passes), colors::kText);
-    if (snapshot.guiding && snapshot.guiding->variance_ratio) add_guiding_badge(row, *snapshot.guiding);
     if (frame.preview == Preview::LightSamples) row.add("while moving: preview with light samples", colors::kWarning);
     if (frame.preview == Preview::RadianceMap)
         row.add("while moving: preview by the learned radiance map", colors::kWarning);
@@ -102,7 +110,14 @@ void add_picture_badges(BadgeRow& row, const PublishedFrame& frame) {
                             info_of(learning_method()).key),
                 colors::kWarning);
     if (view == View::Depth) row.add(fmt::format("black 0, white {:.4g}", frame.range.high), colors::kText);
-    if (is_heat_map(view)) row.add_heat_legend(legend(view, frame.range));
+    if (shows_heat(frame)) {
+        const ValueRange& range = model.display().heat_range(frame);
+        row.add_heat_legend(fmt::format("{} to {} {}{}", short_value(range.low), short_value(range.high),
+                                        frame.range.unit,
+                                        range.scale == ColorScale::Logarithmic ? ", logarithmic" : ""));
+    } else if (is_heat_map(view)) {
+        row.add_heat_legend(legend(view, frame.range));
+    }
     if (frame.divider > 1) row.add(fmt::format("1/{} of the resolution", frame.divider), colors::kWarning);
 }
 
@@ -132,7 +147,6 @@ void add_compare_badges(BadgeRow& row, const ViewerModel& model, const ComparePl
 void add_turns_badge(BadgeRow& row, const WorkerStatus& status) {
     if (!status.turns) return;
     const TurnsStatus& turns = *status.turns;
-    row.add("in turns of equal time: half the speed each", colors::kWarning);
     if (turns.catching_up)
         row.add(
             fmt::format("{} catches up", info_of(turns.methods[turns.seconds[0] < turns.seconds[1] ? 0 : 1]).label),
@@ -169,7 +183,7 @@ void add_diagnostics_badges(BadgeRow& row, const ViewerModel& model) {
         row.add("with the present field", colors::kText);
 }
 
-/// The gain of the picture, and the number of tiles of each mark.
+/// The number of tiles of each mark; the gain of the picture is that of the table.
 void add_gain_badges(BadgeRow& row, const GainMarks& marks) {
     if (!marks.is_shown()) return;
     const TileGains* gains = marks.gains();
@@ -178,8 +192,6 @@ void add_gain_badges(BadgeRow& row, const GainMarks& marks) {
         return;
     }
     const auto color = [](Verdict verdict) { return to_imgui_color(mark_color(verdict)); };
-    row.add(fmt::format("{} {}", info_of(marks.method()).label, mark_text(gains->picture)),
-            color(verdict_of(gains->picture)));
     for (const Verdict verdict :
          {Verdict::Faster, Verdict::Slower, Verdict::NoDifference, Verdict::Undecided, Verdict::Unresolved}) {
         const auto count =
@@ -206,27 +218,36 @@ void add_state_badges(BadgeRow& row, const ViewerModel& model) {
                 colors::kWarning);
     if (status.state == WorkerState::Done) row.add("done", colors::kGood);
     if (status.state == WorkerState::Failed) row.add("rendering failed, see the log", colors::kError);
-    if (!info_of(model.render().settings().method).learns || !status.field) return;
+    if (!info_of(model.render().settings().method).learns || !status.field || model.frame() == nullptr) return;
     if (status.field->is_frozen)
         row.add(fmt::format("learning frozen after {}", passes_text(status.field->passes)), colors::kWarning);
-    else if (status.state == WorkerState::Rendering)
+    else if (status.state == WorkerState::Rendering && !is_given_up(*model.frame()))
         row.add("learning, " + passes_text(status.field->passes), colors::kGood);
 }
 
 }  // namespace
 
 void draw_badges(ViewerModel& model, const Layout& layout, const ComparePlan& plan) {
+    if (is_heat_map(model.render().settings().view)) model.window().values_shown = true;
     const Rect& view = layout.clear;
-    BadgeRow row({view.x + em(0.6f), view.y + em(0.6f)}, view.x + view.width - em(0.6f));
+    // Below a card, which has its place: badges come, go and wrap while pictures render.
+    gui_memory().badges.clear();
+    const float top = std::max(gui_memory().top_card_end, view.y) + em(0.6f);
+    BadgeRow row({view.x + em(0.6f), top}, view.x + view.width - em(0.6f));
     // Compared pictures have labels of their own.
-    if (model.frame() != nullptr && plan.tiles.empty()) add_picture_badges(row, *model.frame());
+    if (model.frame() != nullptr && plan.tiles.empty()) add_picture_badges(row, model, *model.frame());
+    if (model.frame() != nullptr) add_guiding_badge(row, *model.frame());
+    if (const auto& second = model.link().second_frame()) add_guiding_badge(row, *second);
     if (model.frame() != nullptr) add_light_badge(row, model.frame()->facts.light);
+    if (model.outside().is_outside())
+        row.add(fmt::format("outside the room: {} brings you back", info_of(ActionId::CameraHome).keys),
+                colors::kWarning);
     add_compare_badges(row, model, plan);
     const WorkerStatus& status = model.status();
     add_turns_badge(row, status);
     add_reference_badge(row, model);
     if (plan.tiles.empty()) add_diagnostics_badges(row, model);
-    if (plan.at_image) add_gain_badges(row, model.gain_marks());
+    add_gain_badges(row, model.gain_marks());
     add_state_badges(row, model);
     if (model.display().cells())
         row.add(fmt::format("volumes {:.0f} %", 100.0f * model.display().cells_opacity()), colors::kText);
@@ -256,7 +277,7 @@ float draw_toast(ImDrawList& list, ImVec2 corner, float max_width, MessageLevel 
     const float height = size.y + 2.0f * pad.y;
     const ImVec2 low{corner.x, corner.y - height};
     const ImVec2 high{corner.x + size.x + 2.0f * pad.x, corner.y};
-    list.AddRectFilled(low, high, IM_COL32(28, 31, 38, 240), em(0.2f));
+    list.AddRectFilled(low, high, ImGui::GetColorU32(ImGuiCol_PopupBg, 0.94f), em(0.2f));
     list.AddRectFilled(low, {low.x + em(0.25f), high.y}, stripe_of(level));
     list.AddText(ImGui::GetFont(), ImGui::GetFontSize(), {low.x + pad.x, low.y + pad.y}, colors::kText, text.c_str(),
                  nullptr, wrap);
@@ -269,7 +290,7 @@ void draw_toasts(const ViewerModel& model, const Layout& layout, const ComparePl
     const Rect& view = layout.clear;
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
     ImVec2 corner{view.x + em(0.6f), view.y + view.height - em(0.6f)};
-    corner.y = std::min(corner.y, top_of_names(plan) - em(0.6f));
+    corner.y = std::min({corner.y, top_of_names(plan) - em(0.6f), gui_memory().low_card_start - em(0.6f)});
     const float width = std::min(view.width - em(1.2f), em(34.0f));
     for (auto toast = model.messages().toasts().rbegin(); toast != model.messages().toasts().rend(); ++toast)
         corner.y -= draw_toast(list, corner, width, toast->level, toast->text) + em(0.35f);

@@ -27,7 +27,7 @@ void begin_dialog(const char* name, bool& open, const Layout& layout, float widt
     ImGui::SetNextWindowSize({std::min(width, screen.x - em(2.0f)), 0.0f});
     ImGui::Begin(name, &open,
                  ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
-                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav);
+                     ImGuiWindowFlags_NoSavedSettings);
 }
 
 namespace {
@@ -40,8 +40,8 @@ void draw_line(const char* keys, const char* text) {
     const float width = std::max(ImGui::CalcTextSize(keys).x + em(0.6f), em(1.3f));
     const float height = ImGui::GetTextLineHeight();
     ImGui::GetWindowDrawList()->AddRectFilled({corner.x, corner.y - 1.0f},
-                                              {corner.x + width, corner.y + height + 1.0f}, IM_COL32(50, 57, 70, 255),
-                                              em(0.2f));
+                                              {corner.x + width, corner.y + height + 1.0f},
+                                              ImGui::GetColorU32(ImGuiCol_Button), em(0.2f));
     ImGui::SetCursorScreenPos({corner.x + 0.5f * (width - ImGui::CalcTextSize(keys).x), corner.y});
     ImGui::TextColored(to_vec4(colors::kAccent), "%s", keys);
     ImGui::SameLine(em(kKeysEm));
@@ -81,8 +81,22 @@ void draw_help(ViewerModel& model, const Layout& layout) {
         draw_group(ActionGroup::View);
         draw_group(ActionGroup::Overlay);
         draw_group(ActionGroup::File);
+        draw_group(ActionGroup::Help);
         ImGui::EndTable();
     }
+    ImGui::End();
+}
+
+void draw_about(ViewerModel& model, const Layout& layout) {
+    if (!model.window().about) return;
+    ImGui::SetNextWindowFocus();
+    begin_dialog("About pathlight", model.window().about, layout, em(32.0f));
+    text_line("pathlight " PL_VERSION, colors::kAccent);
+    text_line("Renders pictures while it learns from which directions light arrives, beside what happens without.",
+              colors::kText);
+    faint_text(
+        "docs/manual.md describes the window and all options, docs/idea.md what is learned and why. LICENSE and "
+        "THIRD-PARTY.md say what may be done with it.");
     ImGui::End();
 }
 
@@ -163,11 +177,22 @@ void draw_self_test(ViewerModel& model, const Layout& layout) {
 
 namespace {
 
-/// After a Selectable that a click chooses and a double click opens.
+/// Enter on the control that arrows have reached: newer versions of Dear ImGui count it as a click themselves.
+bool is_entered() {
+#if IMGUI_VERSION_NUM < 18700
+    return ImGui::IsItemFocused() && ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter), false);
+#else
+    return false;
+#endif
+}
+
+/// After a Selectable that a click chooses, and that a double click or a key opens.
 void answer_click(OpenDialog& dialog, const std::string& name, bool clicked) {
-    if (!clicked) return;
+    if (!clicked && !is_entered()) return;
     dialog.choice() = name;
-    if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) dialog.open(name);
+    const bool is_pointer =
+        ImGui::IsMouseReleased(ImGuiMouseButton_Left) || ImGui::IsMouseClicked(ImGuiMouseButton_Left);
+    if (!is_pointer || ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) dialog.open(std::string(name));
 }
 
 void draw_choice(OpenDialog& dialog, const std::string& name, const std::string& shown, const char* place) {
@@ -193,7 +218,7 @@ void draw_picture(const std::string& name, const std::shared_ptr<const ByteImage
 
 /// All known scenes, as many in a row as fit.
 void draw_gallery(OpenDialog& dialog, ImVec2 size) {
-    ImGui::BeginChild("scenes", size, true);
+    begin_part("scenes", size);
     const float gap = em(0.6f);
     const float room = ImGui::GetContentRegionAvail().x;
     const int columns = std::max(static_cast<int>((room + gap) / (em(8.0f) + gap)), 1);
@@ -216,7 +241,7 @@ void draw_gallery(OpenDialog& dialog, ImVec2 size) {
 }
 
 void draw_recent(OpenDialog& dialog, const RecentFiles& recent, ImVec2 size) {
-    ImGui::BeginChild("recent", size, true);
+    begin_part("recent", size);
     faint_text("Opened last");
     for (const std::string& name : recent.names()) {
         draw_choice(dialog, name, std::filesystem::path(name).filename().string(), "recent: ");
@@ -226,7 +251,7 @@ void draw_recent(OpenDialog& dialog, const RecentFiles& recent, ImVec2 size) {
 }
 
 void draw_files(OpenDialog& dialog, ImVec2 size) {
-    ImGui::BeginChild("files", size, true);
+    begin_part("files", size);
     const FolderListing& listing = dialog.listing();
     faint_text(listing.folder.string().c_str());
     std::filesystem::path entered;
@@ -245,9 +270,12 @@ void draw_field(OpenDialog& dialog) {
     std::array<char, 4096> text{};
     std::snprintf(text.data(), text.size(), "%s", dialog.choice().c_str());
     ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - em(6.5f));
-    const bool entered = ImGui::InputTextWithHint("##choice", "scene, file or folder", text.data(), text.size(),
-                                                  ImGuiInputTextFlags_EnterReturnsTrue);
+    if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
+    const bool entered =
+        ImGui::InputTextWithHint("##choice", "scene, file or folder", text.data(), text.size(),
+                                 ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
     note_place("open: field");
+    if (entered) ImGui::SetKeyboardFocusHere(-1);  // for the next name, if this one opens nothing
     dialog.choice() = text.data();
     ImGui::SameLine();
     if (ImGui::Button("Open", {-1.0f, 0.0f}) || entered) dialog.open(std::string(dialog.choice()));

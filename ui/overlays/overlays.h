@@ -7,6 +7,8 @@
 
 namespace pl::ui {
 
+// Over a picture in `image`, clipped by the caller.
+
 /// Lobes or domes of the selected and the pinned volumes at their positions, with their peaks and the ray of the hovered cell.
 void draw_hemisphere(ViewerModel& model, const Rect& image);
 
@@ -34,8 +36,9 @@ void draw_badges(ViewerModel& model, const Layout& layout, const ComparePlan& pl
 /// Toasts, and the speed of the camera after it changed.
 void draw_toasts(const ViewerModel& model, const Layout& layout, const ComparePlan& plan);
 
-/// The card of the guided tour, and a frame around the part of the window that its step is about.
-void draw_tour(ViewerModel& model, const Layout& layout, const Rect& image);
+/// The card of the guided tour, and a frame around the part of the window that its step is about; without the tour what two methods in
+/// turns have shown, and the offer of the tour.
+void draw_tour(ViewerModel& model, const Layout& layout, const Rect& image, const ComparePlan& plan);
 
 /// The dialog of the self test: a button, and the checks as they finish.
 void draw_self_test(ViewerModel& model, const Layout& layout);
@@ -45,6 +48,9 @@ void draw_open_dialog(ViewerModel& model, const Layout& layout);
 
 /// While the panels are hidden and the pointer moves: the button that shows them.
 void draw_show_panels(ViewerModel& model);
+
+/// Name, version and documents.
+void draw_about(ViewerModel& model, const Layout& layout);
 
 /// All keys, from the table that dispatches them.
 void draw_help(ViewerModel& model, const Layout& layout);

@@ -77,7 +77,7 @@ void draw_label(ImDrawList& list, const Magnifier& magnifier, const PointedPixel
     const Rect& box = magnifier.box;
     const ImVec2 low{box.x - 2.0f, box.y + box.height};
     const float height = ImGui::CalcTextSize(text.c_str()).y + em(0.4f);
-    list.AddRectFilled(low, {box.x + box.width + 2.0f, low.y + height}, IM_COL32(20, 22, 27, 240));
+    list.AddRectFilled(low, {box.x + box.width + 2.0f, low.y + height}, ImGui::GetColorU32(ImGuiCol_PopupBg, 0.94f));
     list.AddText({low.x + em(0.4f), low.y + em(0.2f)}, colors::kText, text.c_str());
 }
 

@@ -156,7 +156,6 @@ void draw_hemisphere(ViewerModel& model, const Rect& image) {
     const Snapshot& snapshot = frame.snapshot;
     const Projection projection(snapshot.camera, snapshot.width, snapshot.height, image);
     ImDrawList& out = *ImGui::GetBackgroundDrawList();
-    out.PushClipRect({image.x, image.y}, {image.x + image.width, image.y + image.height});
     draw_shapes(out, frame, projection, volumes,
                 {.range = shown_range(model, volumes),
                  .shape = model.window().lobe_shape,
@@ -164,15 +163,12 @@ void draw_hemisphere(ViewerModel& model, const Rect& image) {
     for (const ShownVolume& shown : volumes)
         if (shown.is_selected)
             draw_hovered_ray(out, frame, projection, *shown.volume, model.selection().hovered_cell());
-    out.PopClipRect();
 }
 
 void draw_flowers(ViewerModel& model, const Rect& image) {
     if (!model.flowers().is_shown() || model.frame() == nullptr) return;
     ImDrawList& out = *ImGui::GetBackgroundDrawList();
-    out.PushClipRect({image.x, image.y}, {image.x + image.width, image.y + image.height});
     draw_mesh(out, model.flowers().mesh(*model.frame(), image));
-    out.PopClipRect();
 }
 
 namespace {
@@ -221,10 +217,8 @@ void draw_path_lines(ViewerModel& model, const Rect& image) {
     const Snapshot& snapshot = frame.snapshot;
     const Projection projection(snapshot.camera, snapshot.width, snapshot.height, image);
     ImDrawList& out = *ImGui::GetBackgroundDrawList();
-    out.PushClipRect({image.x, image.y}, {image.x + image.width, image.y + image.height});
     const auto selected = explorer.selected();
     draw_strokes(out, explorer.pieces(frame), projection, selected ? &explorer.listed()[*selected] : nullptr);
-    out.PopClipRect();
 }
 
 namespace {
@@ -253,7 +247,6 @@ void draw_gain_marks(const ViewerModel& model, const Rect& image) {
     const float width = image.width / static_cast<float>(gains->columns);
     const float height = image.height / static_cast<float>(gains->rows);
     const float radius = std::min(em(0.6f), 0.2f * std::min(width, height));
-    out.PushClipRect({image.x, image.y}, {image.x + image.width, image.y + image.height});
     for (std::size_t i = 0; i < gains->tiles.size(); ++i) {
         const auto columns = static_cast<std::size_t>(gains->columns);
         draw_mark(out,
@@ -261,7 +254,6 @@ void draw_gain_marks(const ViewerModel& model, const Rect& image) {
                    image.y + (static_cast<float>(i / columns) + 0.5f) * height},
                   radius, verdict_of(gains->tiles[i]));
     }
-    out.PopClipRect();
 }
 
 }  // namespace pl::ui

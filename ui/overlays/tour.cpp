@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -21,14 +22,14 @@ Rect place_of(const TourStep& step, const Rect& image) {
     return place != places.end() ? place->second : Rect{};
 }
 
-/// A frame around it, over everything else, that swells gently.
-void draw_frame(const Rect& place) {
+/// A frame around it that swells gently.
+void draw_frame(ImDrawList& list, const Rect& place) {
     if (place.width <= 0.0f || place.height <= 0.0f) return;
     const float phase = 0.5f + 0.5f * std::sin(4.0f * static_cast<float>(ImGui::GetTime()));
     const float margin = em(0.15f + 0.15f * phase);
-    ImGui::GetForegroundDrawList()->AddRect({place.x - margin, place.y - margin},
-                                            {place.x + place.width + margin, place.y + place.height + margin},
-                                            colors::kWarning, em(0.25f), 0, em(0.15f));
+    list.AddRect({place.x - margin, place.y - margin},
+                 {place.x + place.width + margin, place.y + place.height + margin}, colors::kWarning, em(0.25f), 0,
+                 em(0.15f));
 }
 
 bool button(const char* label, const char* place) {
@@ -37,15 +38,34 @@ bool button(const char* label, const char* place) {
     return is_pressed;
 }
 
+void large_text(const std::string& text) {
+    ImGui::PushFont(large_font());
+    text_line(text.c_str(), colors::kText);
+    ImGui::PopFont();
+}
+
+/// Two methods in turns, in one sentence that is true now.
+void draw_headline(const ViewerModel& model) {
+    const bool next_event = model.render().settings().next_event;
+    const TurnsHeadline headline =
+        turns_headline(model.comparison().accuracy().table(), *model.link().turns(), next_event);
+    large_text(headline.text);
+    const std::string about = headline.detail.empty() ? "" : headline.detail + " ";
+    faint_text(fmt::format("{}{}: {} turns them {}.", about,
+                           next_event ? "With light samples" : "Without light samples",
+                           info_of(ActionId::NextEvent).keys, next_event ? "off" : "on")
+                   .c_str());
+}
+
 void draw_offer(ViewerModel& model) {
-    text_line("New here?", colors::kAccent);
-    text_line(
-        "Six short steps show how light transport is learned while the picture is rendered, in the scene 'door'.",
-        colors::kText);
-    if (button("Take the tour", "tour: take")) model.tour().begin(model);
+    if (model.link().turns())
+        text_line("Drag the line between the halves, or see in six short steps how it works.", colors::kWarning);
+    else
+        text_line("New here? Six short steps show how light transport is learned while the picture is rendered.",
+                  colors::kText);
+    if (button("Take the tour (F4)", "tour: take")) model.tour().begin(model);
     ImGui::SameLine();
     if (button("No, thanks", "tour: decline")) model.tour().leave();
-    faint_text("F4 begins it at any time.");
 }
 
 void draw_step(ViewerModel& model) {
@@ -54,8 +74,17 @@ void draw_step(ViewerModel& model) {
     const TourStep& step = steps[static_cast<std::size_t>(tour.step())];
     text_line(fmt::format("{} of {}   {}", tour.step() + 1, steps.size(), step.title).c_str(), colors::kAccent);
     text_line(step.text, colors::kText);
-    text_line(step.task, colors::kWarning);
-    if (button("Skip this step", "tour: skip")) tour.skip_step(model);
+    if (tour.is_seen())
+        text_line(seen_text(model, tour.step()).c_str(), colors::kGood);
+    else
+        text_line(step.task, colors::kWarning);
+    if (!model.comparison().in_turns())
+        text_line("The turns have ended: X lets both halves go on.", colors::kWarning);
+    ImGui::BeginDisabled(tour.step() == 0);
+    if (button("Back", "tour: back")) tour.last_step(model);
+    ImGui::EndDisabled();
+    ImGui::SameLine();
+    if (button("Next", "tour: next")) tour.next_step(model);
     ImGui::SameLine();
     if (button("Leave the tour", "tour: leave")) tour.leave();
     tooltip("F4 continues it here.");
@@ -63,53 +92,74 @@ void draw_step(ViewerModel& model) {
 
 void draw_end(ViewerModel& model) {
     text_line("This was the tour.", colors::kAccent);
+    text_line(lesson_text(model).c_str(), colors::kText);
     text_line("F1 lists all keys, F3 shows all settings, Ctrl+O opens other scenes, F4 begins the tour again.",
-              colors::kText);
+              colors::kFaint);
     if (button("Close", "tour: close")) model.tour().leave();
 }
 
 void draw_card(ViewerModel& model, Phase phase) {
-    if (phase == Phase::Offered) draw_offer(model);
     if (phase == Phase::Opening) text_line("opening the scene 'door'", colors::kFaint);
     if (phase == Phase::Running) draw_step(model);
     if (phase == Phase::Finished) draw_end(model);
 }
 
-/// Below the badges, where it leaves the floor of the scene free. Badges come, go and wrap while pictures render: during a click the
-/// card stays, so that its buttons are still under the pointer when it ends.
-float top_of_card(const Rect& view) {
-    float& top = gui_memory().card_top;
-    const bool is_click = ImGui::IsAnyMouseDown() || ImGui::IsMouseReleased(ImGuiMouseButton_Left);
-    if (is_click && top > 0.0f) return top;
-    const auto& places = gui_memory().places;
-    const auto badges = places.find("badges");
-    top = (badges != places.end() ? badges->second.y + badges->second.height : view.y) + em(0.6f);
-    return top;
+/// A window as wide as text reads well, with an upper or lower edge at `y`. End it with ImGui::End().
+void begin_card(const char* name, const Rect& view, float y, bool is_lower_edge, ImGuiWindowFlags flags = 0) {
+    const float width = std::min(view.width - em(1.2f), em(34.0f));
+    ImGui::SetNextWindowPos({view.x + 0.5f * view.width, y}, ImGuiCond_Always, {0.5f, is_lower_edge ? 1.0f : 0.0f});
+    ImGui::SetNextWindowSize({width, 0.0f});
+    ImGui::SetNextWindowBgAlpha(0.94f);
+    ImGui::Begin(name, nullptr,
+                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+                     ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoFocusOnAppearing | flags);
+}
+
+/// Below compared pictures that leave room there, else above their names.
+float low_card_edge(const Rect& view, const ComparePlan& plan) {
+    const float end = view.y + view.height;
+    const bool has_room = !plan.tiles.empty() && plan.tiles[0].clip.y + plan.tiles[0].clip.height + em(8.0f) < end;
+    return (has_room ? end : std::min(end, top_of_names(plan))) - em(0.6f);
+}
+
+/// Ends the window, and returns its place.
+Rect end_card(const char* place) {
+    const ImVec2 corner = ImGui::GetWindowPos();
+    const ImVec2 size = ImGui::GetWindowSize();
+    ImGui::End();
+    note_place(place, {corner.x, corner.y, size.x, size.y});
+    return {corner.x, corner.y, size.x, size.y};
 }
 
 }  // namespace
 
-void draw_tour(ViewerModel& model, const Layout& layout, const Rect& image) {
+void draw_tour(ViewerModel& model, const Layout& layout, const Rect& image, const ComparePlan& plan) {
     const Phase phase = model.tour().phase();
-    if (phase == Phase::Off) return;
-    const bool is_covered = model.open_dialog().is_shown() || model.window().help || model.self_test().is_shown();
-    if (phase == Phase::Running && !is_covered) {
-        const Rect place = place_of(tour_steps()[static_cast<std::size_t>(model.tour().step())], image);
-        draw_frame(place);
-    }
+    GuiMemory& memory = gui_memory();
+    memory.top_card_end = 0.0f;
+    memory.low_card_start = std::numeric_limits<float>::infinity();
     const Rect& view = layout.clear;
-    const float width = std::min(view.width - em(1.2f), em(34.0f));
-    ImGui::SetNextWindowPos({view.x + 0.5f * view.width, top_of_card(view)}, ImGuiCond_Always, {0.5f, 0.0f});
-    ImGui::SetNextWindowSize({width, 0.0f});
-    ImGui::SetNextWindowBgAlpha(0.94f);
-    ImGui::Begin("tour", nullptr,
-                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
-                     ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoFocusOnAppearing);
+    if (phase == Phase::Off || phase == Phase::Offered) {
+        if (!model.link().turns() && phase == Phase::Off) return;
+        // Without buttons clicks go through it to the picture.
+        begin_card("headline", view, low_card_edge(view, plan), true,
+                   phase == Phase::Off ? ImGuiWindowFlags_NoInputs : 0);
+        if (model.link().turns()) draw_headline(model);
+        if (phase == Phase::Offered) draw_offer(model);
+        memory.low_card_start = end_card("headline").y;
+        return;
+    }
+    if (phase == Phase::Running && !model.has_dialog()) {
+        const TourStep& step = tour_steps()[static_cast<std::size_t>(model.tour().step())];
+        // Over everything else, but the picture's below the card.
+        draw_frame(step.place == TourStep::kPicture ? *ImGui::GetBackgroundDrawList()
+                                                    : *ImGui::GetForegroundDrawList(),
+                   place_of(step, image));
+    }
+    begin_card("tour", view, view.y + em(0.6f), false);
     draw_card(model, phase);
-    const ImVec2 corner = ImGui::GetWindowPos();
-    const ImVec2 size = ImGui::GetWindowSize();
-    ImGui::End();
-    note_place("tour", {corner.x, corner.y, size.x, size.y});
+    const Rect card = end_card("tour");
+    memory.top_card_end = card.y + card.height;
 }
 
 }  // namespace pl::ui

@@ -8,6 +8,7 @@
 #include "ui/panels/panels.h"
 #include "ui/plot/draw_run_table.h"
 #include "ui/plot/plot_widget.h"
+#include "ui/plot/save_plot.h"
 
 namespace pl::ui {
 namespace {
@@ -15,8 +16,8 @@ namespace {
 constexpr float kPlotEm = 18.0f;
 constexpr float kSmallestPlotEm = 15.0f;  ///< 240 pixels of the design size
 
-void draw_metric_choice(AccuracyModel& model) {
-    ImGui::SetNextItemWidth(std::max(ImGui::GetContentRegionAvail().x - em(10.0f), em(4.0f)));
+void draw_metric_choice(AccuracyModel& model, PictureFiles& files) {
+    ImGui::SetNextItemWidth(std::max(ImGui::GetContentRegionAvail().x - em(13.5f), em(4.0f)));
     if (ImGui::BeginCombo("##metric", info_of(model.wanted_metric()).label)) {
         for (int i = 0; i < kErrorMetricCount; ++i) {
             const auto metric = static_cast<ErrorMetric>(i);
@@ -38,6 +39,9 @@ void draw_metric_choice(AccuracyModel& model) {
     ImGui::SameLine();
     if (ImGui::Button("Fit")) model.fit_view();
     tooltip("Shows all curves of this picture, as a double click on the plot does.");
+    ImGui::SameLine();
+    if (ImGui::Button("Save")) files.save_plot(plot_svg(model), plot_csv(model));
+    end_row("save plot", "The plot as SVG, and all points of its runs as CSV.");
 }
 
 std::string cost_text(double cost, CostAxis axis) {
@@ -57,7 +61,7 @@ void draw_row(const CursorRow& row, const AccuracyModel& model) {
     const auto run = find_run(model.runs(), row.run);
     if (!run) return;
     ImGui::TableNextRow();
-    text_cell(name_of(run->label), to_imgui_color(info_of(run->label.method).color));
+    text_cell(name_of(run->label), to_imgui_color(run_color(model.runs(), run->label)));
     const bool at_error = model.cursor().kind == Cursor::Kind::EqualError;
     const std::optional<double>& shown = at_error ? row.cost : row.error;
     if (!shown)
@@ -181,7 +185,7 @@ void draw_accuracy_panel(ViewerModel& model, const Layout& layout) {
     draw_run_table(accuracy);  // above the scrolled part: always visible
     ImGui::BeginChild("scrolled", {0.0f, 0.0f}, false,
                       window.plot.has_wheel ? ImGuiWindowFlags_NoScrollWithMouse : 0);
-    draw_metric_choice(accuracy);
+    draw_metric_choice(accuracy, model.files().pictures());
     // The rows of a cursor should be visible without scrolling.
     const float rows = accuracy.rows().empty() ? 0.0f : static_cast<float>(accuracy.rows().size()) + 1.0f;
     const float room = ImGui::GetContentRegionAvail().y - em(6.0f) - rows * ImGui::GetTextLineHeightWithSpacing();

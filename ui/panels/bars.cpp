@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cctype>
 
 #include <fmt/format.h>
@@ -19,6 +20,16 @@ void draw_recent_menu(ViewerModel& model) {
     ImGui::EndMenu();
 }
 
+void draw_views_menu(ViewerModel& model) {
+    ImGui::Separator();
+    for (const ViewInfo& view : all_views()) {
+        const std::string label(view.label);
+        if (ImGui::MenuItem(label.c_str(), nullptr, view.id == model.render().settings().view))
+            model.render().set_view(view.id);
+        note_place(("view: " + label).c_str());
+    }
+}
+
 /// One menu per group of the key table, without the held keys.
 void draw_group(ViewerModel& model, ActionGroup group) {
     const bool is_open = ImGui::BeginMenu(name_of(group));
@@ -28,10 +39,12 @@ void draw_group(ViewerModel& model, ActionGroup group) {
         if (action.group != group || action.is_held) continue;
         std::string label = action.text;
         label[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(label[0])));
-        if (ImGui::MenuItem(label.c_str(), action.keys.c_str())) perform(model, action);
+        if (action.id == ActionId::Quit) ImGui::Separator();
+        if (ImGui::MenuItem(label.c_str(), action.keys.c_str(), is_on(model, action))) perform(model, action);
         note_place(action.text.c_str());
+        if (action.id == ActionId::Open) draw_recent_menu(model);
     }
-    if (group == ActionGroup::File) draw_recent_menu(model);
+    if (group == ActionGroup::View) draw_views_menu(model);
     ImGui::EndMenu();
 }
 
@@ -42,20 +55,9 @@ void draw_menu_bar(ViewerModel& model, const Layout& layout) {
     begin_fixed_window("menu", layout.menu, ImGuiWindowFlags_MenuBar | ImGuiWindowFlags_NoScrollbar);
     ImGui::PopStyleVar();
     if (ImGui::BeginMenuBar()) {
-        draw_group(model, ActionGroup::File);
-        draw_group(model, ActionGroup::Render);
-        draw_group(model, ActionGroup::Method);
-        draw_group(model, ActionGroup::View);
-        draw_group(model, ActionGroup::Overlay);
-        draw_group(model, ActionGroup::Compare);
-        draw_group(model, ActionGroup::Fly);
-        draw_group(model, ActionGroup::Window);
-        const std::string title = model.title();
-        const float start = ImGui::GetWindowWidth() - ImGui::CalcTextSize(title.c_str()).x - em(1.0f);
-        if (start > ImGui::GetCursorPosX()) {  // a narrow window has it in its title bar only
-            ImGui::SameLine(start);
-            ImGui::TextDisabled("%s", title.c_str());
-        }
+        using enum ActionGroup;
+        for (const ActionGroup group : {File, View, Render, Method, Overlay, Compare, Fly, Window, Help})
+            draw_group(model, group);
         ImGui::EndMenuBar();
     }
     ImGui::End();
@@ -79,6 +81,14 @@ public:
         ImGui::PopStyleColor();
         const bool is_clicked = ImGui::IsItemClicked();
         tooltip(tip);
+        // As wide as it ever was: numbers that grow move nothing at their right.
+        float* const widest = ImGui::GetStateStorage()->GetFloatRef(ImGui::GetID(tip));
+        const float width = ImGui::GetItemRectSize().x;
+        *widest = std::max(*widest, width);
+        if (*widest > width) {
+            ImGui::SameLine(0.0f, 0.0f);
+            ImGui::Dummy({*widest - width, 0.0f});
+        }
         return is_clicked;
     }
 
@@ -152,7 +162,7 @@ void draw_status_bar(ViewerModel& model, const Layout& layout) {
              state == WorkerState::Failed ? colors::kError
                                           : (state == WorkerState::Rendering ? colors::kGood : colors::kWarning));
     draw_diagnostics(line, model);
-    line.add(std::string(info_of(model.render().settings().method).label),
+    line.add(method_text(model.render().settings(), model.render().method()),
              fmt::format("The method; keys {}.", method_keys()).c_str());
     line.add(light_samples_text(model.render().settings().next_event),
              "Key L: whether each path vertex samples a point on a light.");

@@ -138,18 +138,18 @@ void draw_accuracy_border(ViewerModel& model, const Layout& layout) {
 
 void draw_borders(ViewerModel& model, const Layout& layout) {
     PanelChoice& choice = model.window().panels;
-    const FoldLook settings{choice.settings ? "fold the settings" : "open the settings",
-                            choice.settings ? "Folds the settings (F6)." : "Opens the settings (F6).",
-                            choice.settings ? ImGuiDir_Left : ImGuiDir_Right};
-    const FoldLook right{choice.right ? "fold the right side" : "open the right side",
-                         choice.right ? "Folds tabs and accuracy panel (F7)." : "Opens tabs and accuracy panel (F7).",
-                         choice.right ? ImGuiDir_Right : ImGuiDir_Left};
-    const bool had_settings = choice.settings;
-    const bool had_right = choice.right;
+    const bool had_settings = choice.shows_settings(layout.one_side);
+    const bool had_right = choice.shows_right(layout.one_side);
+    const FoldLook settings{had_settings ? "fold the settings" : "open the settings",
+                            had_settings ? "Folds the settings (F6)." : "Opens the settings (F6).",
+                            had_settings ? ImGuiDir_Left : ImGuiDir_Right};
+    const FoldLook right{had_right ? "fold the right side" : "open the right side",
+                         had_right ? "Folds tabs and accuracy panel (F7)." : "Opens tabs and accuracy panel (F7).",
+                         had_right ? ImGuiDir_Right : ImGuiDir_Left};
     const BorderLook at_left{Border::Settings, layout.settings_border, had_settings, "border of the settings"};
     const BorderLook at_right{Border::Right, layout.right_border, had_right, "border of the right side"};
-    if (draw_border(model, layout, at_left, {&settings, 1}) == 0) choice.settings = !had_settings;
-    if (draw_border(model, layout, at_right, {&right, 1}) == 0) choice.right = !had_right;
+    if (draw_border(model, layout, at_left, {&settings, 1}) == 0) choice.toggle_settings(layout.one_side);
+    if (draw_border(model, layout, at_right, {&right, 1}) == 0) choice.toggle_right(layout.one_side);
     draw_accuracy_border(model, layout);
 }
 

@@ -46,27 +46,27 @@ std::optional<PickedPoint> surface_under(const PublishedFrame& frame, const Pixe
 }
 
 /// 8-bit sRGB of a pixel's value on screen.
-std::array<int, 3> shown_code(const PublishedFrame& frame, Vec3f value) {
+std::array<int, 3> shown_code(const DisplayControls& display, const PublishedFrame& frame, Vec3f value) {
     const View view = frame.snapshot.slot.view;
     if (is_heat_map(view)) {
-        const ByteColor color = heat_color(value.x * frame.range.scale());
+        const ByteColor color = heat_color(display.heat_range(frame).position(value.x));
         return {color.r, color.g, color.b};
     }
-    const DisplaySettings display = display_of(view, frame.display);
-    const Vec3f shown = tone_map(value * frame.range.scale(), std::exp2(display.exposure_ev), display.curve);
+    const DisplaySettings settings = display_of(view, frame.display);
+    const Vec3f shown = tone_map(value * frame.range.scale(), std::exp2(settings.exposure_ev), settings.curve);
     std::array<int, 3> code;
     for (int i = 0; i < 3; ++i)
         code[static_cast<std::size_t>(i)] = static_cast<int>(std::lround(255.0f * encode_srgb(shown[i])));
     return code;
 }
 
-void draw_pixel_values(const PublishedFrame& frame, const PixelPosition& pixel) {
+void draw_pixel_values(const DisplayControls& display, const PublishedFrame& frame, const PixelPosition& pixel) {
     const Snapshot& snapshot = frame.snapshot;
     if (!frame.has_values()) return;  // the next frame brings them
     const std::size_t index = static_cast<std::size_t>(pixel.y) * static_cast<std::size_t>(snapshot.width) +
                               static_cast<std::size_t>(pixel.x);
     const Vec3f value = snapshot.pixels[index];
-    const std::array<int, 3> code = shown_code(frame, value);
+    const std::array<int, 3> code = shown_code(display, frame, value);
     text_row("Pixel", fmt::format("{}, {} of {}x{}", pixel.x, pixel.y, snapshot.width, snapshot.height));
     if (is_heat_map(snapshot.slot.view)) {
         text_row("Value", fmt::format("{:.5g}  {}", value.x, frame.range.unit),
@@ -116,7 +116,7 @@ void draw_pixel_tab(ViewerModel& model, const std::optional<PixelPosition>& hove
     model.window().values_shown = true;
     if (model.comparison().state().mode != CompareMode::Off)
         faint_text("Values of the live picture, not of the compared ones.");
-    draw_pixel_values(*frame, *hovered);
+    draw_pixel_values(model.display(), *frame, *hovered);
     ImGui::Separator();
     draw_surface(*frame, *hovered);
 }

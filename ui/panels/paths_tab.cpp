@@ -268,7 +268,7 @@ void draw_pixel_gain(const diagnose::PixelNoise& noise) {
         faint_text("Undecided: a method has found no light in this pixel, or has no noise.");
         return;
     }
-    text_line(fmt::format("{} {} here", name, mark_text(noise.gain->net)).c_str(),
+    text_line(fmt::format("{} {} in this pixel", name, mark_name(verdict_of(noise.gain->net))).c_str(),
               to_imgui_color(mark_color(verdict_of(noise.gain->net))));
     tooltip("Time to the same noise in this pixel: variance times time of a path, default's over the method's, with "
             "its 95 % interval. "

@@ -129,7 +129,7 @@ void draw_sampling(ViewerModel& model) {
 
 void draw_run_buttons(ViewerModel& model) {
     const float width = 0.5f * (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x);
-    if (ImGui::Button(model.render().paused() ? "Continue" : "Pause", {width, 0.0f}))
+    if (ImGui::Button(model.render().paused() ? "Continue###run" : "Pause###run", {width, 0.0f}))
         model.render().set_paused(!model.render().paused());
     tooltip("Space");
     ImGui::SameLine();
@@ -167,6 +167,7 @@ void draw_view(ViewerModel& model) {
     int view = static_cast<int>(model.render().settings().view);
     if (choice_row("View", std::string(info_of(model.render().settings().view).summary).c_str(), &view, labels))
         model.render().set_view(all_views()[static_cast<std::size_t>(view)].id);
+    if (is_heat_map(model.render().settings().view)) range_controls(model.display().heat_rule());
     float exposure = model.display().settings().exposure_ev;
     if (slider_row("Exposure", "In stops; display only.", &exposure, {-8.0f, 8.0f, 0.0f, "%+.2f EV"}))
         model.display().set_exposure(exposure);
@@ -218,6 +219,10 @@ void draw_window_displays(ViewerModel& model) {
                    &preview))
         model.display().set_preview(preview);
     ImGui::EndDisabled();
+}
+
+/// In both layouts: who cannot read the window does not look for more settings.
+void draw_reading(ViewerModel& model) {
     constexpr float kLeastScale = 0.75f, kMostScale = 2.0f, kScaleStep = 0.25f;
     std::vector<std::string> sizes;
     for (float scale = kLeastScale; scale <= kMostScale; scale += kScaleStep)
@@ -225,6 +230,7 @@ void draw_window_displays(ViewerModel& model) {
     int size = static_cast<int>(std::lround((model.window().ui_scale - kLeastScale) / kScaleStep));
     if (choice_row("Text size", "Size of text and controls; also --ui-scale.", &size, sizes))
         model.window().ui_scale = kLeastScale + kScaleStep * static_cast<float>(size);
+    choice_row("Theme", "Colors of the window.", &model.window().theme);
 }
 
 void draw_display(ViewerModel& model) {
@@ -233,6 +239,7 @@ void draw_display(ViewerModel& model) {
     if (is_research(model)) draw_tone_curve(model);
     draw_field_displays(model);
     if (is_research(model)) draw_window_displays(model);
+    draw_reading(model);
 }
 
 void draw_layout_button(ViewerModel& model) {

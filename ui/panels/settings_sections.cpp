@@ -36,26 +36,22 @@ void draw_refinement(ViewerModel& model, FieldSettings settings) {
 
 /// The targets of training samples and the learning rate. Every change restarts pictures and fields.
 void draw_learning_targets(ViewerModel& model, FieldSettings settings) {
-    bool changed = choice_row("Learning rate", "Step of an update.", &settings.rate);
-    changed |=
-        choice_row("Learns from", "The target of a training sample. Only tables learn from others than the first.",
-                   &settings.learning.target);
-    changed |= choice_row("Light", "With light samples, what a method learns.", &settings.learning.light);
+    bool changed = choice_row("Learn rate", "Step of an update.", &settings.rate);
+    changed |= choice_row("Learn target", "Of a training sample. Only tables learn from others than the first.",
+                          &settings.learning.target);
+    changed |= choice_row("Learn from", "With light samples, what a method learns.", &settings.learning.light);
     if (changed) model.render().set_field(settings);
 }
 
 /// Number of passes and training samples of the method on show.
 void draw_learned_amount(const ViewerModel& model) {
     const std::optional<FieldStatus>& field = model.status().field;
-    if (field) {
-        text_row("Learned",
-                 fmt::format("{}, {} samples", passes_text(field->passes),
-                             short_number(static_cast<double>(field->records))),
-                 "Passes and training samples of the field. Camera moves keep it.");
-    } else {
-        const MethodInfo& method = info_of(model.render().method());
-        faint_text(method.uses_field ? "nothing yet" : fmt::format("{} has no field.", method.label).c_str());
-    }
+    const MethodInfo& method = info_of(model.render().method());
+    const std::string none = method.uses_field ? "nothing yet" : fmt::format("{} has no field", method.label);
+    // A line each, also without a field: what is below them keeps its place.
+    text_row("Learned", field ? passes_text(field->passes) : none, "Camera moves keep the field.");
+    text_row("Samples", field ? short_number(static_cast<double>(field->records)) : "-",
+             "Training samples of the field.");
 }
 
 /// The field and the mixture with the BSDF. Changes of the field restart pictures and fields.
@@ -66,12 +62,13 @@ void draw_field(ViewerModel& model) {
         mixture.learned = learned ? 1 : 0;
         model.render().set_mixture(mixture);
     }
-    if (slider_row(
-            "BSDF share",
-            "BSDF fraction of the mixture: the share of directions sampled from the BSDF instead of the field, for "
-            "volumes that have not learned it.",
-            &mixture.bsdf_fraction, {kMinBsdfFraction, 1.0f, MixtureSettings{}.bsdf_fraction, "%.2f"}))
+    ImGui::BeginDisabled(learned && info_of(model.render().method()).learns);
+    if (slider_row("BSDF share",
+                   "Of directions sampled from the BSDF instead of the field, where it is not learned: "
+                   "--bsdf-fraction.",
+                   &mixture.bsdf_fraction, {kMinBsdfFraction, 1.0f, MixtureSettings{}.bsdf_fraction, "%.2f"}))
         model.render().set_mixture(mixture);
+    ImGui::EndDisabled();
     FieldSettings settings = model.render().settings().field;
     if (choice_row("Field", "How a method that learns represents directions; precomputed maps are tables.",
                    &settings.representation)) {
@@ -92,7 +89,7 @@ void draw_field(ViewerModel& model) {
     std::vector<std::string> squares;
     for (int side = kLeastSide; side <= kMostSide; ++side) squares.push_back(std::to_string(side * side));
     int step = static_cast<int>(std::lround(std::sqrt(settings.bins))) - kLeastSide;
-    if (choice_row("Directions", "Cells of the hemisphere of a volume.", &step, squares)) {
+    if (choice_row("Bins", "Directions of a volume: cells of its hemisphere.", &step, squares)) {
         settings.bins = (kLeastSide + step) * (kLeastSide + step);
         model.render().set_field(settings);
     }

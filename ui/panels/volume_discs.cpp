@@ -95,28 +95,20 @@ constexpr float kSmallestDiscEm = 2.0f;  ///< in a window with no room for it, t
 constexpr float kGapEm = 0.8f;
 constexpr float kPinEm = 5.0f;  ///< a pinned volume's disc with its ring
 
-void draw_cell_tooltip(const VolumeInspection& volume, const std::vector<ShownDisc>& discs, int cell,
-                       Vec3f direction) {
-    const auto index = static_cast<std::size_t>(cell);
-    constexpr float kToDeg = 180.0f / kPi;
-    const float cosine = std::clamp(glm::dot(direction, volume.normal), -1.0f, 1.0f);
-    ImGui::BeginTooltip();
-    ImGui::Text("cell %d (column %d, row %d)", cell, cell % volume.side, cell / volume.side);
-    ImGui::Text("%.0f\xc2\xb0 from the normal", static_cast<double>(std::acos(cosine) * kToDeg));
-    if (discs.size() > 1)
-        for (const ShownDisc& disc : discs)
-            if (!disc.values.empty()) text_row(disc.caption.c_str(), fmt::format("{:.4g}", disc.values[index]));
-    ImGui::Separator();
-    text_row("radiance Q", fmt::format("{:.4g}", volume.radiance[index]));
-    text_row("probability P", fmt::format("{:.4g}", volume.probability[index]));
-    text_row("visits", fmt::format("{}", volume.visits[index]));
-    ImGui::EndTooltip();
-}
-
-/// The meaning of the marks.
-void draw_caption(const DiscShape& shape) {
-    faint_text(shape.frame.up_is_scene() ? "cross: normal; ring: camera; rim: 90\xc2\xb0; arrow: up"
-                                         : "cross: normal; ring: camera; rim: 90\xc2\xb0; arrow: up in the picture");
+/// The numbers of the cell under the pointer, besides those above the discs; else the meaning of the marks. One line, so that nothing
+/// below it moves.
+void draw_caption(const VolumeInspection& volume, const DiscShape& shape, int cell, Vec3f direction) {
+    const char* const up = shape.frame.up_is_scene() ? "up" : "up in the picture";
+    std::string text = fmt::format("cross: normal; ring: camera; rim: 90\u00b0; arrow: {}", up);
+    if (cell >= 0) {
+        const auto index = static_cast<std::size_t>(cell);
+        constexpr float kToDeg = 180.0f / kPi;
+        const float cosine = std::clamp(glm::dot(direction, volume.normal), -1.0f, 1.0f);
+        text = fmt::format("cell {}, {:.0f}\u00b0 from the normal, P {}, {} visits", cell, std::acos(cosine) * kToDeg,
+                           short_value(volume.probability[index]), volume.visits[index]);
+    }
+    ImGui::TextColored(to_vec4(cell < 0 ? colors::kFaint : colors::kText), "%s", text.c_str());
+    note_place("cell numbers");
 }
 
 /// The places of discs in a row, below their captions.
@@ -144,7 +136,7 @@ void draw_pins(ViewerModel& model, const std::vector<ShownVolume>& volumes, cons
         const ImVec2 corner = ImGui::GetCursorScreenPos();
         const std::string name = fmt::format("pin {}", volume.volume);
         if (ImGui::InvisibleButton(name.c_str(), {side, side + em(1.2f)}))
-            model.selection().select_volume(volume.volume);
+            model.selection().select_volume(volume.volume, {volume.position, volume.normal});
         note_place(name.c_str());
         tooltip("A pinned volume, in the color that it has in the picture. A click selects it; K unpins the selected "
                 "one.");
@@ -181,8 +173,12 @@ void draw_volume_discs(ViewerModel& model, const VolumeInspection& volume) {
     ImDrawList& list = *ImGui::GetWindowDrawList();
     for (std::size_t i = 0; i < discs.size(); ++i) {
         const DiscPlace& place = places[i];
+        const bool has_value = cell >= 0 && !discs[i].values.empty();
+        const std::string caption =
+            discs[i].caption +
+            (has_value ? " " + short_value(discs[i].values[static_cast<std::size_t>(cell)]) : std::string());
         list.AddText({place.center.x - place.radius, place.center.y - place.radius - em(1.7f)}, colors::kText,
-                     discs[i].caption.c_str());
+                     caption.c_str());
         draw_disc(list, place, shape, positions_in(range, discs[i].values), cell);
     }
     const DiscPlace& learned = places.front();
@@ -193,9 +189,8 @@ void draw_volume_discs(ViewerModel& model, const VolumeInspection& volume) {
         list,
         {last.center.x + last.radius + em(kGapEm), last.center.y - last.radius, em(kLegendEm), 2.0f * last.radius},
         range);
-    draw_caption(shape);
+    draw_caption(volume, shape, cell, direction);
     draw_pins(model, volumes, range);
-    if (cell >= 0) draw_cell_tooltip(volume, discs, cell, direction);
 }
 
 }  // namespace pl::ui

@@ -16,18 +16,7 @@ namespace {
 void draw_choices(CellDisplay& display) {
     choice_row("quantity", "Of a cell.", &display.quantity, em(8.0f));
     ImGui::SameLine();
-    bool logarithmic = display.range.scale == ColorScale::Logarithmic;
-    if (ImGui::Checkbox("log", &logarithmic))
-        display.range.scale = logarithmic ? ColorScale::Logarithmic : ColorScale::Linear;
-    tooltip("Logarithmic colors, over at most three decades.");
-    ImGui::SameLine();
-    ImGui::SetNextItemWidth(-1.0f);
-    ImGui::DragFloatRange2("##range", &display.range.low_percent, &display.range.high_percent, 0.2f, 0.0f, 100.0f,
-                           "%.0f %%", "%.0f %%", ImGuiSliderFlags_AlwaysClamp);
-    tooltip(
-        "Colors run from one percentile of the cells to the other. Drag the ends; Ctrl+click to type; right click "
-        "for all values.");
-    if (ImGui::IsItemClicked(ImGuiMouseButton_Right)) display.range = {.scale = display.range.scale};
+    range_controls(display.range);
 }
 
 std::string interval_text(const Interval& interval) {
@@ -94,7 +83,7 @@ void draw_learning_buttons(ViewerModel& model) {
     if (!info_of(model.render().method()).learns) return;
     const bool is_frozen = model.status().field && model.status().field->is_frozen;
     ImGui::AlignTextToFramePadding();
-    if (ImGui::SmallButton(is_frozen ? "continue" : "freeze"))
+    if (ImGui::SmallButton(is_frozen ? "continue###freeze" : "freeze###freeze"))
         model.render().control_learning(is_frozen ? LearningControl::Continue : LearningControl::Freeze);
     note_place("freeze");
     tooltip("Freezes the learned field of all volumes as it is after the present pass; the picture goes on. Or lets "

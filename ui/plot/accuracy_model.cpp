@@ -96,7 +96,7 @@ void AccuracyModel::make_lines() {
         if (!comparable && others-- > kOtherLines) continue;
         lines_.push_back({.run = run->number,
                           .name = name_of(label),
-                          .color = info_of(label.method).color,
+                          .color = run_color(runs(), label),
                           .is_dashed = is_dashed(label),
                           .marker = marker_of(label),
                           .comparable = comparable,

@@ -48,7 +48,7 @@ std::vector<RunColumn> columns_for(const std::vector<RunRow>& rows) {
     if (std::ranges::any_of(rows, [](const RunRow& row) { return row.label.warm; })) columns.push_back(kStart);
     columns.push_back({"spp", "Samples per pixel so far.", samples_text});
     columns.push_back(
-        {"each", "Charged time for each sample per pixel of the whole picture, set-up included.", cost_text});
+        {"a sample", "Charged time for each sample per pixel of the whole picture, set-up included.", cost_text});
     return columns;
 }
 
@@ -65,10 +65,12 @@ void header_cell(const char* title, const char* tip) {
 
 void draw_header(const std::vector<RunColumn>& columns) {
     ImGui::TableNextRow();
-    header_cell("method",
-                "Click on a row to hide or show its curve. Full lines: with light samples; dashed: without.");
+    header_cell(
+        "method",
+        "Or what differs from its usual settings. Click on a row to hide or show its curve. Full lines: with light "
+        "samples; dashed: without.");
     for (const RunColumn& column : columns) header_cell(column.title, column.tip);
-    header_cell("net", kGainTip);
+    header_cell("gain", kGainTip);
 }
 
 ImU32 gain_color(const RunRow& row) {
@@ -103,7 +105,7 @@ bool draw_method(const RunRow& row, const PlotLine* line) {
                     em(kSampleEm));
     ImGui::SameLine(0.0f, 0.0f);
     ImGui::SetCursorScreenPos({at.x + em(kSampleEm + 0.3f), at.y});
-    std::string name(info_of(row.label.method).name);
+    std::string name(row.label.details.empty() ? std::string(info_of(row.label.method).name) : row.label.details);
     if (row.seeds > 1) name += fmt::format(" x{}", row.seeds);
     const bool hidden = line != nullptr && line->hidden;
     ImGui::TextColored(to_vec4(hidden ? colors::kFaint : colors::kText), "%s", name.c_str());
@@ -142,7 +144,13 @@ void draw_run_table(AccuracyModel& model) {
         ImGui::EndTable();
     }
     ImGui::PopStyleVar();
-    if (!table.note.empty()) faint_text(table.note.c_str());
+    // The second run replaces the note: what is below keeps its place.
+    constexpr std::size_t kUsualRows = 2;
+    if (!table.note.empty())
+        faint_text(table.note.c_str());
+    else
+        for (std::size_t row = table.rows.size(); row < kUsualRows; ++row)
+            ImGui::Dummy({0.0f, ImGui::GetTextLineHeight()});
     if (clicked != 0) model.toggle_hidden(clicked);
 }
 

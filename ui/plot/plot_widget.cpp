@@ -11,9 +11,6 @@
 namespace pl::ui {
 namespace {
 
-constexpr ImU32 kGround = IM_COL32(16, 18, 22, 255);
-constexpr ImU32 kMinorGrid = IM_COL32(32, 36, 43, 255);
-constexpr ImU32 kGrid = IM_COL32(52, 58, 69, 255);
 constexpr ImU32 kFloor = IM_COL32(110, 114, 122, 70);
 constexpr std::uint32_t kBandAlpha = 56;
 constexpr float kPlotRightEm = 0.6f;          ///< right of the curves, for half of a number
@@ -28,7 +25,8 @@ void draw_x_axis(ImDrawList& list, const PlotView& view, const Rect& frame) {
     float free_from = frame.x - em(1.0f);
     for (const AxisTick& tick : view.x_axis().ticks(most)) {
         const float x = pixel(view.to_window({tick.value, view.y_axis().low()}, frame).x);
-        list.AddLine({x, frame.y}, {x, frame.y + frame.height}, tick.label.empty() ? kMinorGrid : kGrid);
+        list.AddLine({x, frame.y}, {x, frame.y + frame.height},
+                     tick.label.empty() ? colors::kMinorGrid : colors::kGrid);
         const float width = ImGui::CalcTextSize(tick.label.c_str()).x;
         const float left = std::min(x - 0.5f * width, frame.x + frame.width + em(kPlotRightEm) - width);
         if (tick.label.empty() || left < free_from) continue;
@@ -41,7 +39,8 @@ void draw_y_axis(ImDrawList& list, const PlotView& view, const Rect& frame) {
     const int most = std::max(static_cast<int>(frame.height / em(1.3f)), 1);
     for (const AxisTick& tick : view.y_axis().ticks(most)) {
         const float y = pixel(view.to_window({view.x_axis().low(), tick.value}, frame).y);
-        list.AddLine({frame.x, y}, {frame.x + frame.width, y}, tick.label.empty() ? kMinorGrid : kGrid);
+        list.AddLine({frame.x, y}, {frame.x + frame.width, y},
+                     tick.label.empty() ? colors::kMinorGrid : colors::kGrid);
         if (tick.label.empty()) continue;
         const float width = ImGui::CalcTextSize(tick.label.c_str()).x;
         const float lowest = frame.y + frame.height + em(0.1f) - ImGui::GetFontSize();  // above the first number of x
@@ -90,7 +89,7 @@ void draw_band(ImDrawList& list, std::span<const LinePoint> points, const PlotVi
 
 void draw_marker(ImDrawList& list, Vec2f at, ImU32 color, const PlotMarker& marker) {
     const float radius = em(0.17f);
-    const ImU32 inside = marker.hollow ? kGround : color;
+    const ImU32 inside = marker.hollow ? colors::kGround : color;
     if (marker.square) {
         const ImVec2 low{at.x - radius, at.y - radius};
         const ImVec2 high{at.x + radius, at.y + radius};
@@ -113,10 +112,10 @@ Rect plot_frame(const Rect& place) {
 void draw_axes(ImDrawList& list, const PlotView& view, const Rect& frame, const PlotStyle& style) {
     const ImVec2 low{frame.x, frame.y};
     const ImVec2 high{frame.x + frame.width, frame.y + frame.height};
-    list.AddRectFilled(low, high, kGround);
+    list.AddRectFilled(low, high, colors::kGround);
     draw_x_axis(list, view, frame);
     draw_y_axis(list, view, frame);
-    list.AddRect(low, high, kGrid);
+    list.AddRect(low, high, colors::kGrid);
     list.PushClipRect(low, high, true);
     if (style.floor > 0.0) {
         const float y = view.to_window({view.x_axis().low(), style.floor}, frame).y;
@@ -258,7 +257,7 @@ void draw_hover(const AccuracyModel& model, ImDrawList& list, const Rect& frame)
     for (const LinePoint& other : line.points)
         if (other.value.x <= point.value.x) until.push_back({other.value.x, other.value.y});
     const double slope = log_slope(until);
-    ImGui::BeginTooltip();
+    begin_tooltip();
     ImGui::TextColored(to_vec4(to_imgui_color(line.color)), "%s", line.name.c_str());
     ImGui::TextUnformatted(
         fmt::format("{}   {} spp", short_seconds(charged_seconds(measured.clocks)), measured.spp).c_str());
@@ -270,7 +269,7 @@ void draw_hover(const AccuracyModel& model, ImDrawList& list, const Rect& frame)
     if (measured.squared_bias) ImGui::TextUnformatted(bias_text(*measured.squared_bias).c_str());
     if (!line.comparable) ImGui::TextUnformatted("another picture: not compared");
     if (measured.picture == nullptr) ImGui::TextUnformatted("its picture was dropped");
-    ImGui::EndTooltip();
+    end_tooltip();
 }
 
 }  // namespace

@@ -21,6 +21,9 @@ constexpr std::array<ErrorMetricInfo, kErrorMetricCount> kMetrics{{
      "Estimated from the difference of two halves of the picture: needs no reference.", -1.0},
 }};
 
+/// Of runs with other settings than the defaults, told apart by most color-blind people.   [Okabe and Ito 2008]
+constexpr std::array<std::uint32_t, 4> kDetailColors{0xffcc79a7u, 0xfff0e442u, 0xffd55e00u, 0xffb8a1ffu};
+
 std::optional<double> metric_of(const Metrics& metrics, ErrorMetric metric) {
     switch (metric) {
     case ErrorMetric::RelMse: return metrics.relmse;
@@ -67,12 +70,24 @@ Curve other_cost_of(const LiveRun& run, CostAxis axis) {
 std::string name_of(const RunLabel& label) {
     std::string backend = label.backend;
     for (char& letter : backend) letter = static_cast<char>(std::toupper(static_cast<unsigned char>(letter)));
-    std::string name = fmt::format("{} {}", info_of(label.method).label, backend);
+    std::string name(info_of(label.method).label);
+    if (!label.details.empty()) name += " (" + label.details + ")";
+    name += " " + backend;
     if (label.next_event) name += ", light samples";
     if (label.seed > 1) name += fmt::format(", seed {}", label.seed);
-    if (!label.details.empty()) name += ", " + label.details;
     if (label.warm) name += ", warm";
     return name;
+}
+
+std::uint32_t run_color(RunList runs, const RunLabel& label) {
+    if (label.details.empty()) return info_of(label.method).color;
+    std::vector<std::string> kinds;  // in the order of their first runs
+    for (const auto& run : runs)
+        if (const RunLabel& other = run->label; other.method == label.method && !other.details.empty() &&
+                                                std::ranges::find(kinds, other.details) == kinds.end())
+            kinds.push_back(other.details);
+    const auto kind = static_cast<std::size_t>(std::ranges::find(kinds, label.details) - kinds.begin());
+    return kDetailColors[kind % kDetailColors.size()];
 }
 
 bool is_dashed(const RunLabel& label) { return !label.next_event; }

@@ -34,6 +34,8 @@ struct CurveKind {
     friend bool operator==(const CurveKind&, const CurveKind&) = default;
 };
 
+using RunList = std::span<const std::shared_ptr<const LiveRun>>;
+
 /// Empty if it was not measured.
 std::optional<double> error_of(const LivePoint& point, ErrorMetric metric);
 /// Standard error of error_of() over the blocks of this one picture; 0 if unknown.
@@ -45,8 +47,11 @@ Curve curve_of(const LiveRun& run, const CurveKind& kind);
 /// The other cost along a run: samples per pixel over seconds, or seconds over samples per pixel.
 Curve other_cost_of(const LiveRun& run, CostAxis axis);
 
-/// "Reinforcement CPU, light samples, warm": everything that distinguishes the run from others.
+/// "Reinforcement (SD-tree) CPU, light samples, warm": everything that distinguishes the run from others.
 std::string name_of(const RunLabel& label);
+
+/// Opaque ARGB: of the method, and of its own for each set of other settings among `runs`.
+std::uint32_t run_color(RunList runs, const RunLabel& label);
 
 /// Lines of runs without light samples are dashed.
 bool is_dashed(const RunLabel& label);
@@ -59,8 +64,6 @@ struct PlotMarker {
     friend bool operator==(const PlotMarker&, const PlotMarker&) = default;
 };
 PlotMarker marker_of(const RunLabel& label);
-
-using RunList = std::span<const std::shared_ptr<const LiveRun>>;
 
 /// Null if no run has this number.
 std::shared_ptr<const LiveRun> find_run(RunList runs, std::uint64_t number);

@@ -281,6 +281,63 @@ RunTable make_run_table(RunList runs, std::uint64_t picture) {
     return table;
 }
 
+namespace {
+
+/// The newest row of a method that has a gain with an interval; null without one.
+const RunRow* measured_row(const RunTable& table, MethodId method, bool next_event) {
+    const RunRow* newest = nullptr;
+    for (const RunRow& row : table.rows)
+        if (row.label.method == method && row.label.next_event == next_event && row.gain &&
+            row.gain->source != IntervalSource::None && (newest == nullptr || row.run > newest->run))
+            newest = &row;
+    return newest;
+}
+
+std::string reason_text(const MethodInfo& method, Verdict verdict) {
+    if (verdict != Verdict::Faster) return "learning does not pay here";
+    return method.learns ? "its paths have learned where the light comes from"
+                         : "its paths know where the light comes from";
+}
+
+}  // namespace
+
+const RunRow* learning_row(const RunTable& table, bool next_event) {
+    const RunRow* const row = measured_row(table, learning_method(), next_event);
+    return row != nullptr && !row->label.warm ? row : nullptr;
+}
+
+std::string ahead_text(const RunRow& row) {
+    const Interval& net = row.gain->net;
+    switch (verdict_of(net)) {
+    case Verdict::Faster: return ratio_text(net.value) + " times ahead";
+    case Verdict::Slower: return ratio_text(1.0 / net.value) + " times behind";
+    case Verdict::NoDifference:
+    case Verdict::Undecided:
+    case Verdict::Unresolved: break;
+    }
+    return "neither ahead nor behind";
+}
+
+TurnsHeadline turns_headline(const RunTable& table, const std::array<MethodId, 2>& methods, bool next_event) {
+    const bool is_left = methods[0] != baseline_method();
+    const MethodId method = methods[is_left ? 0 : 1];
+    const char* const own = is_left ? "left" : "right";
+    const char* const other = is_left ? "right" : "left";
+    const RunRow* const row = measured_row(table, method, next_event);
+    if (row == nullptr) return {fmt::format("Both halves get the same time. Has the {} one less noise?", own), ""};
+    const Interval& net = row->gain->net;
+    const Verdict verdict = verdict_of(net);
+    const std::string detail =
+        fmt::format("Measured{}: for the same noise the {} half would need {} times as long ({} to {}).",
+                    row->label.warm ? ", without the time of earlier learning" : "", other, ratio_text(net.value),
+                    ratio_text(net.low), ratio_text(net.high));
+    if (verdict != Verdict::Faster && verdict != Verdict::Slower)
+        return {"Same time, and no difference in noise between the halves that is beyond chance.", detail};
+    return {fmt::format("Same time, and the {} half is {}: {}.", own, ahead_text(*row),
+                        reason_text(info_of(method), verdict)),
+            detail};
+}
+
 std::string gain_text(const RunRow& row) {
     switch (row.missing) {
     case MissingGain::IsBase: return "baseline";

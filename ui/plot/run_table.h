@@ -1,6 +1,7 @@
 // The runs of the picture in the window as the rows of a table.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -64,6 +65,20 @@ struct RunTable {
 /// One row for each method, back end, use of light samples, start and further settings. Each is compared with
 /// base_of() it; a run that has just begun replaces no older one.
 RunTable make_run_table(RunList runs, std::uint64_t picture);
+
+/// Two methods in turns of equal time in words, as the table has measured them.
+struct TurnsHeadline {
+    std::string text;    ///< one sentence
+    std::string detail;  ///< the number behind it with its interval; empty as long as nothing is measured
+};
+/// `methods`: of the left and the right half.
+TurnsHeadline turns_headline(const RunTable& table, const std::array<MethodId, 2>& methods, bool next_event);
+
+/// The newest row of the method that learns, with or without light samples, if it has a gain with an interval and began with nothing
+/// learned; else null.
+const RunRow* learning_row(const RunTable& table, bool next_event);
+/// "4.5 times ahead", "1.3 times behind", "neither ahead nor behind": by such a row.
+std::string ahead_text(const RunRow& row);
 
 /// "1.7x", "0.58x", "no difference", "undecided", "1.7x, no interval", "baseline", "too few samples", "no baseline".
 std::string gain_text(const RunRow& row);

@@ -79,6 +79,30 @@ std::string headline_text(const ViewerModel& model) {
     return text;
 }
 
+/// Of the tooltip "beside" the panel under the pointer, or "over" it; "none".
+std::string tooltip_place(const ViewerModel&) {
+    const auto& places = gui_memory().places;
+    const auto tooltip = places.find("tooltip");
+    if (tooltip == places.end()) return "none";
+    const ImVec2 pointer = ImGui::GetIO().MousePos;
+    for (const char* const name : {"settings", "knowledge", "accuracy"}) {
+        const auto panel = places.find(name);
+        if (panel == places.end() || !panel->second.contains({pointer.x, pointer.y})) continue;
+        const Rect common = common_part(panel->second, tooltip->second);
+        return common.width > 0.0f && common.height > 0.0f ? "over" : "beside";
+    }
+    return "beside";
+}
+
+/// Lines between the title of the learning section in the layout Explore and its button: they must not change with the numbers.
+std::string learning_rows(const ViewerModel&) {
+    const auto& places = gui_memory().places;
+    const auto title = places.find("Learning");
+    const auto button = places.find("Forget the learned field");
+    if (title == places.end() || button == places.end()) return "none";
+    return fmt::format("{:.1f}", (button->second.y - title->second.y) / ImGui::GetTextLineHeightWithSpacing());
+}
+
 /// "96,134", "none".
 std::string pointed_at(const ViewerModel& model) {
     const auto& pointed = model.window().pointed;
@@ -139,7 +163,17 @@ constexpr std::array kValues{
     Value{"cells", [](const ViewerModel& m) { return word(m.display().cells()); }},
     Value{"hemisphere", [](const ViewerModel& m) { return word(m.window().hemisphere); }},
     Value{"help", [](const ViewerModel& m) { return word(m.window().help); }},
+    Value{"about", [](const ViewerModel& m) { return word(m.window().about); }},
+    Value{"tooltip_place", tooltip_place},
     Value{"panels", [](const ViewerModel& m) { return word(m.window().panels.shown); }},
+    Value{"badges", [](const ViewerModel&) { return gui_memory().badges; }},
+    Value{"learning_rows", learning_rows},
+    Value{"theme", [](const ViewerModel& m) { return std::string(pl::name_of(m.window().theme)); }},
+    Value{"keyed_panel",
+          [](const ViewerModel& m) {
+              const auto& panel = m.window().keyed_panel;
+              return panel ? fmt::format("{}", static_cast<int>(*panel)) : std::string("none");
+          }},
     Value{"window",
           [](const ViewerModel&) {
               const ImVec2 size = ImGui::GetIO().DisplaySize;
@@ -147,8 +181,10 @@ constexpr std::array kValues{
           }},
     Value{"ui_scale", [](const ViewerModel& m) { return fmt::format("{}", m.window().ui_scale); }},
     Value{"layout", [](const ViewerModel& m) { return std::string(name_of(m.window().layout)); }},
-    Value{"settings_panel", [](const ViewerModel& m) { return word(m.window().panels.settings); }},
-    Value{"right_side", [](const ViewerModel& m) { return word(m.window().panels.right); }},
+    Value{"settings_panel",
+          [](const ViewerModel& m) { return word(m.window().panels.shows_settings(m.window().one_side)); }},
+    Value{"right_side",
+          [](const ViewerModel& m) { return word(m.window().panels.shows_right(m.window().one_side)); }},
     Value{"tabs", [](const ViewerModel& m) { return word(m.window().panels.tabs); }},
     Value{"settings_em", [](const ViewerModel& m) { return fmt::format("{:.2f}", m.window().panels.settings_em); }},
     Value{"right_em", [](const ViewerModel& m) { return fmt::format("{:.2f}", m.window().panels.right_em); }},
@@ -164,6 +200,7 @@ constexpr std::array kValues{
               const CameraDescription& now = m.camera().camera();
               return word(now.eye == home.eye && now.target == home.target);
           }},
+    Value{"outside", [](const ViewerModel& m) { return word(m.outside().is_outside()); }},
     Value{"eye", [](const ViewerModel& m) { return comma_text(m.render().settings().camera.eye); }},
     Value{"eye_z", [](const ViewerModel& m) { return fmt::format("{}", m.render().settings().camera.eye.z); }},
     Value{"target", [](const ViewerModel& m) { return comma_text(m.render().settings().camera.target); }},
@@ -232,7 +269,19 @@ constexpr std::array kValues{
           [](const ViewerModel& m) { return fmt::format("{}", m.scene().materials().edited_names().size()); }},
     Value{"scene", [](const ViewerModel& m) { return m.scene().name(); }},
     Value{"tour", [](const ViewerModel& m) { return state_text(m.tour()); }},
+    Value{"tour_seen", [](const ViewerModel& m) { return word(m.tour().is_seen()); }},
+    Value{"lesson", [](const ViewerModel& m) { return lesson_text(m); }},
+    Value{"tells",
+          [](const ViewerModel& m) {
+              const auto& turns = m.link().turns();
+              return turns
+                         ? turns_headline(m.comparison().accuracy().table(), *turns, m.render().settings().next_event)
+                               .text
+                         : std::string("none");
+          }},
     Value{"dialog", [](const ViewerModel& m) { return word(m.open_dialog().is_shown()); }},
+    Value{"open_choice", [](const ViewerModel& m) { return m.open_dialog().choice(); }},
+    Value{"typing", [](const ViewerModel&) { return word(ImGui::GetIO().WantTextInput); }},
     Value{"thumbnails", [](const ViewerModel& m) { return fmt::format("{}", m.open_dialog().gallery().shown()); }},
     Value{"folder", [](const ViewerModel& m) { return m.open_dialog().listing().folder.string(); }},
     Value{"knobs", [](const ViewerModel& m) { return knob_text(m.scene().knobs()); }},

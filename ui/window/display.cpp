@@ -33,7 +33,8 @@ float scale_for(const Screen& screen) {
     const auto height = static_cast<float>(screen.height);
     const float most =
         std::min({screen.dots_per_inch / kDesignDotsPerInch, width / kRoomyWidth, height / kRoomyHeight});
-    return std::clamp(std::floor(2.0f * most) / 2.0f, 1.0f, kMostUiScale);
+    constexpr float kSlack = 0.05f;  // screens tell their size in whole millimeters
+    return std::clamp(std::floor(2.0f * most + kSlack) / 2.0f, 1.0f, kMostUiScale);
 }
 
 int fit(float wanted, float usable) {
@@ -139,6 +140,30 @@ std::string opengl_device() {
     return text != nullptr ? reinterpret_cast<const char*>(text) : "";
 }
 
+/// As the desktop sets it for its own text, else by the size of the screen that the X server tells; 0 if neither is known. SDL asks
+/// an extension alone, which some servers and remote desktops lack.
+float x11_dots_per_inch() {
+    void* const library = SDL_LoadObject("libX11.so.6");  // stays loaded: SDL has it, too
+    if (library == nullptr) return 0.0f;
+    const auto open = reinterpret_cast<void* (*)(const char*)>(SDL_LoadFunction(library, "XOpenDisplay"));
+    const auto close = reinterpret_cast<int (*)(void*)>(SDL_LoadFunction(library, "XCloseDisplay"));
+    const auto text =
+        reinterpret_cast<char* (*)(void*, const char*, const char*)>(SDL_LoadFunction(library, "XGetDefault"));
+    const auto pixels = reinterpret_cast<int (*)(void*, int)>(SDL_LoadFunction(library, "XDisplayHeight"));
+    const auto millimeters = reinterpret_cast<int (*)(void*, int)>(SDL_LoadFunction(library, "XDisplayHeightMM"));
+    if (!open || !close || !text || !pixels || !millimeters) return 0.0f;
+    void* const display = open(nullptr);
+    if (display == nullptr) return 0.0f;
+    const char* const wanted = text(display, "Xft", "dpi");
+    const int height_mm = millimeters(display, 0);
+    float density = wanted != nullptr ? std::strtof(wanted, nullptr) : 0.0f;
+    constexpr float kMillimetersPerInch = 25.4f;
+    if (!(density > 0.0f) && height_mm > 0)
+        density = kMillimetersPerInch * static_cast<float>(pixels(display, 0)) / static_cast<float>(height_mm);
+    close(display);
+    return density;
+}
+
 /// The first screen, on which windows open. Drivers that show nothing have none.
 Screen first_screen() {
     const char* driver = SDL_GetCurrentVideoDriver();
@@ -146,7 +171,7 @@ Screen first_screen() {
     if (shows_nothing(driver) || SDL_GetDisplayUsableBounds(0, &usable) != 0) return {};
     Screen screen{.width = usable.w, .height = usable.h};
     // Wayland and macOS enlarge the window themselves, X11 never does.
-    if (std::strcmp(driver, "x11") == 0) SDL_GetDisplayDPI(0, nullptr, &screen.dots_per_inch, nullptr);
+    if (std::strcmp(driver, "x11") == 0) screen.dots_per_inch = x11_dots_per_inch();
     return screen;
 }
 
@@ -209,6 +234,11 @@ Display::Display(const std::string& title, const WindowOptions& options, const s
     }
     if (!opened) throw Error(ErrorKind::Unavailable, fmt::format("cannot open a window: {}", SDL_GetError()));
     SDL_SetWindowMinimumSize(window_, kLeastWindowWidth, kLeastWindowHeight);
+    if (place_ && knows_positions()) {
+        // Without the borders of the window manager, which are known once it shows the window: it has placed them, not the pixels inside.
+        SDL_PumpEvents();
+        SDL_SetWindowPosition(window_, place_->x, place_->y);
+    }
     if (place_ && place_->maximized) SDL_MaximizeWindow(window_);
     set_window_icon(window_);
 }

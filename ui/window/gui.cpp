@@ -1,5 +1,8 @@
 #include "ui/window/gui.h"
 
+#include <array>
+#include <utility>
+
 #include <SDL.h>
 
 #include "core/base/error.h"
@@ -15,7 +18,7 @@ Gui::Gui(const Display& display, std::filesystem::path font, float ui_scale)
         ImGui::DestroyContext();
         throw Error(ErrorKind::Unavailable, "cannot connect the user interface to the window");
     }
-    set_scale(ui_scale);
+    set_look(ui_scale, Theme::Dark);
 }
 
 Gui::~Gui() {
@@ -23,10 +26,12 @@ Gui::~Gui() {
     ImGui::DestroyContext();
 }
 
-void Gui::set_scale(float ui_scale) {
+void Gui::set_look(float ui_scale, Theme theme) {
+    if (ui_scale == scale_ && theme == theme_) return;
+    theme_ = theme;
+    apply_style(ui_scale, theme);
     if (ui_scale == scale_) return;
     scale_ = ui_scale;
-    apply_style(ui_scale);
     load_fonts(font_, ui_scale);
     draw_.upload_fonts();
 }
@@ -63,8 +68,27 @@ void Gui::frame(double delta_seconds, const std::function<void()>& build) {
 
 void Gui::draw() { draw_.draw(*ImGui::GetDrawData()); }
 
+namespace {
+
+/// Lets arrows move between the controls of the chosen panel, or of a dialog.
+void give_keys(const ViewerModel& model) {
+    ImGuiIO& io = ImGui::GetIO();
+    const auto& wanted = model.window().keyed_panel;
+    if (wanted || model.open_dialog().is_shown())
+        io.ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;
+    else
+        io.ConfigFlags &= ~ImGuiConfigFlags_NavEnableKeyboard;
+    const int now = wanted ? static_cast<int>(*wanted) : -1;
+    if (std::exchange(gui_memory().keyed_panel, now) == now) return;
+    constexpr std::array kNames{"menu", "settings", "knowledge", "accuracy"};
+    ImGui::SetWindowFocus(wanted ? kNames[static_cast<std::size_t>(now)] : nullptr);
+}
+
+}  // namespace
+
 void draw_interface(ViewerModel& model, const Layout& layout, const Rect& image, const ComparePlan& plan,
                     const std::optional<PixelPosition>& hovered, const Magnifier* magnifier) {
+    give_keys(model);
     if (layout.panels) {
         draw_menu_bar(model, layout);
         if (layout.left.width > 0.0f) draw_settings_panel(model, layout);
@@ -73,19 +97,26 @@ void draw_interface(ViewerModel& model, const Layout& layout, const Rect& image,
         draw_status_bar(model, layout);
         draw_borders(model, layout);
     }
-    if (plan.at_image) draw_flowers(model, image);
-    if (plan.at_image) draw_hemisphere(model, image);
-    if (plan.at_image) draw_gain_marks(model, image);
-    if (plan.at_image) draw_path_lines(model, image);
+    for (const PicturePlace& picture : picture_places(plan, image, layout.view)) {
+        ImDrawList& list = *ImGui::GetBackgroundDrawList();
+        list.PushClipRect({picture.clip.x, picture.clip.y},
+                          {picture.clip.x + picture.clip.width, picture.clip.y + picture.clip.height});
+        draw_flowers(model, picture.place);
+        draw_hemisphere(model, picture.place);
+        draw_gain_marks(model, picture.place);
+        draw_path_lines(model, picture.place);
+        list.PopClipRect();
+    }
     draw_pixels(model, layout, image, plan, magnifier);
     draw_comparison(model, plan);
     if (layout.panels) draw_badges(model, layout, plan);
-    draw_tour(model, layout, common_part(image, layout.view));
+    draw_tour(model, layout, common_part(image, layout.view), plan);
     if (!layout.panels) draw_show_panels(model);
     draw_toasts(model, layout, plan);
     draw_self_test(model, layout);
     draw_open_dialog(model, layout);
     draw_help(model, layout);
+    draw_about(model, layout);
 }
 
 }  // namespace pl::ui

@@ -71,7 +71,7 @@ public:
     void handle(const SDL_Event& event);
     /// Closes all menus and lists that are open; false if there was none.
     bool close_popups();
-    void set_scale(float ui_scale);
+    void set_look(float ui_scale, Theme theme);
     /// Runs `build` between the start and the end of a frame of this many seconds.
     void frame(double delta_seconds, const std::function<void()>& build);
     /// Draws the last frame.
@@ -81,6 +81,7 @@ private:
     const Display& display_;
     std::filesystem::path font_;
     float scale_ = 0.0f;
+    Theme theme_ = Theme::Dark;
     ImGuiDraw draw_;
     PictureTextures textures_;
     MouseTracker mouse_;

@@ -12,16 +12,29 @@ Rect ImageLayer::place(const ViewerModel& model, const Rect& view) const {
 }
 
 /// At a time of the past: the entropy of the volumes at that time; null for the present.
-const CellImage* ImageLayer::tint_of(const PublishedFrame& frame, const Key& key) {
-    if (key.past == nullptr || key.opacity <= 0.0f || frame.cells == nullptr) return nullptr;
-    if (tinted_ == frame.cells && tinted_at_ == key.past) return &tint_;
+std::shared_ptr<const CellImage> ImageLayer::tint_of(const ViewerModel& model) {
+    const std::shared_ptr<const FieldKeyFrame> past = model.time().shown_frame();
+    const auto& cells = model.frame()->cells;
+    if (past == nullptr || !model.display().cells() || cells == nullptr) return nullptr;
+    if (tinted_ == cells && tinted_at_ == past) return tint_;
     std::vector<std::uint32_t> colors;
-    for (std::size_t volume = 0; volume < key.past->volumes(); ++volume)
+    for (std::size_t volume = 0; volume < past->volumes(); ++volume)
         colors.push_back(cell_color(static_cast<std::int32_t>(volume), cell_table_.view()));
-    tint_ = tint_cells(*frame.cells, colors, entropy_shares(*key.past));
-    tinted_ = frame.cells;
-    tinted_at_ = key.past;
-    return &tint_;
+    tint_ = std::make_shared<const CellImage>(tint_cells(*cells, colors, entropy_shares(*past)));
+    tinted_ = cells;
+    tinted_at_ = past;
+    return tint_;
+}
+
+CellOverlay ImageLayer::overlay(const ViewerModel& model) {
+    if (model.frame() == nullptr) return {};
+    CellOverlay overlay{.cells = model.frame()->cells,
+                        .opacity = model.display().cells() ? model.display().cells_opacity() : 0.0f,
+                        .outlined = std::nullopt,
+                        .tint = tint_of(model)};
+    const std::int32_t selected = model.selection().volume();
+    if (selected != kNoVolume) overlay.outlined = cell_color(selected, cell_table_.view());
+    return overlay;
 }
 
 void ImageLayer::fill(const ViewerModel& model, const Key& key) {
@@ -31,11 +44,13 @@ void ImageLayer::fill(const ViewerModel& model, const Key& key) {
     } catch (const Error&) {
         return;  // the device is lost: the render thread reports it and goes on with another one
     }
-    CellOverlay overlay{frame.cells.get(), key.opacity, std::nullopt};
-    overlay.tint = tint_of(frame, key);
-    if (key.selected != kNoVolume) overlay.outlined = cell_color(key.selected, cell_table_.view());
     texture_.fill([&](std::uint32_t* out, std::size_t pitch) {
-        write_picture(frame.picture, overlay, out, pitch);
+        if (shows_heat(frame)) {
+            write_heat(frame.snapshot, key.heat, out, pitch);
+            write_cells(key.overlay, frame.snapshot.width, frame.snapshot.height, out, pitch);
+        } else {
+            write_picture(frame.picture, key.overlay, out, pitch);
+        }
         if (key.diagnostics) diagnose::mark_diagnostics(*key.diagnostics, {out, pitch});
     });
 }
@@ -44,8 +59,8 @@ void ImageLayer::draw(const ViewerModel& model, const Rect& image, const Rect& v
     if (model.frame() == nullptr) return;
     const Snapshot& snapshot = model.frame()->snapshot;
     if (texture_.resize(snapshot.width, snapshot.height)) key_ = {};
-    const Key key{model.frame()->serial, model.display().cells() ? model.display().cells_opacity() : 0.0f,
-                  model.selection().volume(), model.diagnostics().map(), model.time().shown_frame()};
+    const Key key{model.frame()->serial, overlay(model), model.diagnostics().map(),
+                  shows_heat(*model.frame()) ? model.display().heat_range(*model.frame()) : ValueRange{}};
     if (!(key == key_)) {
         fill(model, key);
         key_ = key;

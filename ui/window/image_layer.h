@@ -17,6 +17,8 @@ public:
     /// The rectangle of the picture within `view`: of the frame in the window, else of the settings.
     Rect place(const ViewerModel& model, const Rect& view) const;
 
+    /// The tint and the outline of the selected volume's cell, as far as they are on.
+    CellOverlay overlay(const ViewerModel& model);
     /// The part of the picture in `view`. Nothing before the first frame.
     void draw(const ViewerModel& model, const Rect& image, const Rect& view);
     /// The picture as drawn last, again in the magnifier's box.
@@ -26,21 +28,20 @@ private:
     /// Everything that the texture's pixels depend on.
     struct Key {
         std::uint64_t serial = 0;  ///< of the frame
-        float opacity = 0.0f;
-        std::int32_t selected = kNoVolume;
+        CellOverlay overlay{};
         std::shared_ptr<const diagnose::DiagnosticsMap> diagnostics{};
-        std::shared_ptr<const FieldKeyFrame> past{};  ///< shown in place of the present field
+        ValueRange heat{};  ///< of views in heat colors
 
         friend bool operator==(const Key&, const Key&) = default;
     };
 
     void fill(const ViewerModel& model, const Key& key);
-    const CellImage* tint_of(const PublishedFrame& frame, const Key& key);
+    std::shared_ptr<const CellImage> tint_of(const ViewerModel& model);
 
     StreamTexture texture_;
     Key key_;
     ToneTable cell_table_{ToneCurve::Clamp};
-    CellImage tint_;
+    std::shared_ptr<const CellImage> tint_;
     std::shared_ptr<const CellImage> tinted_;         ///< the cells of tint_
     std::shared_ptr<const FieldKeyFrame> tinted_at_;  ///< its time
 };

@@ -12,6 +12,13 @@ PickAnswer answer_pick(Session& session, Vec2f image_point) {
     return answer;
 }
 
+VolumesAnswer answer_volumes(Session& session, const std::vector<SurfacePlace>& places) {
+    VolumesAnswer answer;
+    for (const SurfacePlace& place : places)
+        answer.value.push_back({place, session.find_volume_at(place.position, place.normal)});
+    return answer;
+}
+
 LearnedAnswer answer_learned(const Session& session, MethodId method) {
     LearnedAnswer answer;
     try {

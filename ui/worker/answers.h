@@ -8,6 +8,8 @@ namespace pl::ui {
 
 /// The surface under a point of the image, in [0,1)^2 from the top left, with the volume that serves it.
 PickAnswer answer_pick(Session& session, Vec2f image_point);
+/// The volumes that serve these places.
+VolumesAnswer answer_volumes(Session& session, const std::vector<SurfacePlace>& places);
 /// The learned field of a method, or the reason why there is none.
 LearnedAnswer answer_learned(const Session& session, MethodId method);
 /// The input of trace_pixel() for a film, or the reason why there is none.

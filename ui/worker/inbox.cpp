@@ -60,8 +60,10 @@ void Inbox::begin_pass(bool may_be_interrupted, const Requests& now, const std::
     const std::lock_guard lock(mutex_);
     may_be_interrupted_ = may_be_interrupted;
     const bool other_frame = requests_.display != now.display || (requests_.values && !now.values);
-    const bool is_late = !edits_.empty() || requests_.turns != now.turns || requests_.backend != backend ||
-                         (other_frame && film_has_pass_);
+    const bool has_click = requests_.once.pick || !requests_.once.places.empty();
+    const bool is_late = !edits_.empty() || has_click || requests_.turns != now.turns ||
+                         requests_.backend != backend ||
+                         ((other_frame || requests_.volume != now.volume) && film_has_pass_);
     if (may_be_interrupted && is_late) stop_ = true;
 }
 

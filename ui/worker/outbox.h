@@ -57,8 +57,8 @@ private:
     WorkerStatus status_;
     std::shared_ptr<const LiveRunSet> runs_;
     std::vector<WorkerMessage> messages_;
-    std::tuple<std::optional<PickAnswer>, std::optional<LearnedAnswer>, std::optional<DiagnosticsAnswer>,
-               std::optional<PathsAnswer>, std::optional<GainAnswer>>
+    std::tuple<std::optional<PickAnswer>, std::optional<VolumesAnswer>, std::optional<LearnedAnswer>,
+               std::optional<DiagnosticsAnswer>, std::optional<PathsAnswer>, std::optional<GainAnswer>>
         answers_;
     std::shared_ptr<const FieldHistory> history_ = std::make_shared<const FieldHistory>();
     std::shared_ptr<const PublishedFrame> frame_;

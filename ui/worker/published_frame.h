@@ -66,6 +66,11 @@ struct PublishedFrame {
     bool has_values() const { return !snapshot.pixels.empty(); }
 };
 
+/// Whether a frame has the values of a view in heat colors, whose range the window chooses.
+inline bool shows_heat(const PublishedFrame& frame) {
+    return frame.has_values() && is_heat_map(frame.snapshot.slot.view);
+}
+
 /// The film as it is now, with its values if they are wanted; `facts` is left to the caller, who may know them already. The film has
 /// a pass.
 PublishedFrame frame_of_film(Session& session, FilmSlot slot, const DisplaySettings& display, bool with_values);
@@ -91,11 +96,24 @@ struct WorkerStatus {
     double seconds = 0.0;              ///< work_seconds()
     std::optional<TurnsStatus> turns;  ///< then passes and seconds are those of the first method
     std::uint64_t generation = 0;
-    std::uint64_t picture = 0;  ///< picture_key() of the film, as RunLabel::picture; 0 while the camera moves
+    std::uint64_t placement = 0;  ///< changes when numbers of volumes lose their meaning; refinement keeps them
+    std::uint64_t picture = 0;    ///< picture_key() of the film, as RunLabel::picture; 0 while the camera moves
     std::shared_ptr<const SceneDescription> scene;  ///< with the materials as edited; never null
     std::optional<FieldStatus> field;
     std::string backend;                             ///< name of the one in use
     std::shared_ptr<const BackendChoices> backends;  ///< never null
+};
+
+/// A point of a surface, by which the volume that serves it is found again.
+struct SurfacePlace {
+    Vec3f position{0.0f};
+    Vec3f normal{0.0f};
+
+    friend bool operator==(const SurfacePlace&, const SurfacePlace&) = default;
+};
+struct FoundVolume {
+    SurfacePlace at;
+    std::int32_t volume = kNoVolume;  ///< kNoVolume: none serves the place
 };
 
 /// A message for the user.
@@ -110,9 +128,12 @@ struct Answer {
     Value value{};                 ///< empty if there is none
     std::string reason{};          ///< for the lack of it
     std::uint64_t generation = 0;  ///< of the newest edit that the picture shows
+    std::uint64_t placement = 0;   ///< of numbers of volumes in the value, see WorkerStatus::placement
 };
 /// To RenderWorker::request_pick.
 using PickAnswer = Answer<std::optional<PickedPoint>>;
+/// To RenderWorker::request_volumes, in the order of the places.
+using VolumesAnswer = Answer<std::vector<FoundVolume>>;
 /// To RenderWorker::request_learned.
 using LearnedAnswer = Answer<std::shared_ptr<const LearnedField>>;
 /// To RenderWorker::request_diagnostics; empty if the view traces no paths.

@@ -6,6 +6,11 @@
 
 namespace pl::ui {
 
+/// The settings of a method that differ from the defaults, in words: they tell its runs on one picture apart. Empty without any.
+std::string details_of(const RenderSettings& settings, MethodId method);
+/// "Reinforcement (SD-tree)": the method with them.
+std::string method_text(const RenderSettings& settings, MethodId method);
+
 class Recorder {
 public:
     /// Memory for pictures of runs.
@@ -13,8 +18,10 @@ public:
 
     Recorder();
 
-    /// After each piece of work on a film of full size. True if runs() changed.
-    bool observe(const Session& session, FilmSlot slot);
+    /// After each piece of work on a film of full size. True if runs() changed. `is_last`: no pass follows.
+    bool observe(const Session& session, FilmSlot slot, bool is_last = false);
+    /// See LiveRuns::is_up_to_date().
+    bool is_up_to_date(const Session& session, FilmSlot slot) const { return runs_.is_up_to_date(session, slot); }
     /// Errors are measured against it from now on, where pictures are the same. Throws as LiveRuns::set_reference().
     void set_reference(std::shared_ptr<const LiveReference> reference);
     const std::shared_ptr<const LiveReference>& reference() const { return reference_; }

@@ -81,8 +81,14 @@ bool RenderLoop::has_work() const {
     if (failed_) return false;
     if (preview_.now() != wanted_preview()) return true;
     const bool size_is_stale = !size_.is_whole() && !is_coarse();
-    return size_is_stale || wants_pass() || frames_.is_asked() || selected_.wants(now_.volume) || wants_pins() ||
-           (now_.cells && !cells_.is_current(*session_));
+    return size_is_stale || lacks_last_point() || wants_pass() || frames_.is_asked() ||
+           selected_.wants(now_.volume) || wants_pins() || (now_.cells && !cells_.is_current(*session_));
+}
+
+/// The picture rests, and its last passes were not measured.
+bool RenderLoop::lacks_last_point() const {
+    return now_.paused && !is_coarse() && size_.is_whole() && !wants_pass() && preview_.now() == Preview::None &&
+           !runs_.is_up_to_date(*session_, slot());
 }
 
 /// Begins or ends turns as requested, and reads the time of both methods again: edits may have emptied their films.
@@ -151,7 +157,8 @@ void RenderLoop::apply(const SessionEdit& edit) {
 
 void RenderLoop::work() {
     if (size_.apply(*session_, is_coarse())) cells_.invalidate();
-    if (passes() > 0 && (frames_.is_asked() || frames_.is_stale(now_)) &&
+    const bool wants_volumes = selected_.wants(now_.volume) || wants_pins();
+    if (passes() > 0 && (frames_.is_asked() || frames_.is_stale(now_) || wants_volumes) &&
         !holds_frames_back()) {  // a parked picture is shown at once
         frames_.settle(now_);
         refresh_inspection();
@@ -160,6 +167,7 @@ void RenderLoop::work() {
     answer_questions();
     if (turns_) take_turn();
     if (wants_pass()) render();
+    if (lacks_last_point() && runs_.observe(*session_, slot(), true)) outbox_.set_runs(runs_.runs());
     observe_field();
     if (*inbox_.stop_flag()) return;
     if (now_.cells && !cells_.is_current(*session_) && passes() > 0 && cells_.render(*session_, inbox_.stop_flag()))
@@ -187,8 +195,9 @@ void RenderLoop::render() {
         if (passes() == 1) frames_.ask();
         size_.observe(watch.seconds() / std::max(1u, passes() - before));
     }
-    if (is_whole && runs_.observe(*session_, slot())) outbox_.set_runs(runs_.runs());
     if (turns_) turns_->count(*session_, shown_.view);
+    const bool is_last = now_.paused || now_.is_enough(passes(), work_seconds(session_->clocks(slot())));
+    if (is_whole && runs_.observe(*session_, slot(), is_last)) outbox_.set_runs(runs_.runs());
     update_status();
     if (now_.once.steps > 0 || limit_reached() || now_.paused) frames_.ask();
 }
@@ -266,6 +275,7 @@ WorkerStatus RenderLoop::make_status() const {
     status.scene = session_->shared_scene();
     status.divider = size_.divider();
     status.generation = now_.generation;
+    status.placement = placement_;
     status.field = session_->field_status(shown_.method);
     status.seconds = work_seconds(session_->clocks(slot()));
     status.backend = backends_.current();
@@ -281,6 +291,7 @@ WorkerStatus RenderLoop::make_status() const {
 }
 
 void RenderLoop::update_status() {
+    note_placement();
     const WorkerStatus status = make_status();
     inbox_.note_film(status.passes > 0);
     outbox_.set_status(status);

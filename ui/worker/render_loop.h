@@ -51,9 +51,11 @@ private:
     void answer_questions();
     void refresh_inspection();
     bool wants_pins() const;
+    void note_placement();
     void observe_field();
     void publish();
     bool wants_pass() const;
+    bool lacks_last_point() const;
     bool limit_reached() const;
     std::uint32_t most_passes() const;
     bool is_publishing_due() const;
@@ -91,6 +93,8 @@ private:
     Inspection selected_{};
     std::vector<Inspection> pins_{};  ///< in the order of Requests::pins
     FieldHistoryRecorder history_{};
+    std::shared_ptr<const HostVolumes> volumes_{};  ///< whose numbers the window knows
+    std::uint64_t placement_ = 0;                   ///< WorkerStatus::placement of them
 
     FrameSchedule frames_;
     SceneFacts facts_;              ///< of the session's scene

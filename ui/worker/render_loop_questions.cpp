@@ -1,12 +1,21 @@
 // The part of RenderLoop that answers questions of the window, and follows the learned field for it.
+#include <algorithm>
+
 #include "ui/worker/answers.h"
 #include "ui/worker/render_loop.h"
 
 namespace pl::ui {
 
 void RenderLoop::answer_questions() {
-    if (now_.once.pick) outbox_.answer(answer_pick(*session_, *now_.once.pick));
+    const auto answer_numbers = [&](auto answer) {
+        note_placement();  // the volumes may have been placed for it
+        answer.placement = placement_;
+        outbox_.answer(std::move(answer));
+    };
+    if (now_.once.pick) answer_numbers(answer_pick(*session_, *now_.once.pick));
     now_.once.pick.reset();
+    if (!now_.once.places.empty()) answer_numbers(answer_volumes(*session_, now_.once.places));
+    now_.once.places.clear();
     if (now_.once.learned) outbox_.answer(answer_learned(*session_, asked_method()));
     now_.once.learned = false;
     if (now_.once.diagnostics)
@@ -24,6 +33,18 @@ void RenderLoop::answer_questions() {
     if (now_.once.gain)
         outbox_.answer(size_.is_whole() ? answer_gain(*session_, slot()) : GainAnswer{.reason = "the camera moves"});
     now_.once.gain = false;
+}
+
+/// Refinement adds volumes behind the old ones, which keep their numbers.
+void RenderLoop::note_placement() {
+    const std::shared_ptr<const HostVolumes> volumes = session_->volumes();
+    if (volumes == volumes_) return;
+    const auto is_same_place = [](const SurfacePoint& a, const SurfacePoint& b) { return a.position == b.position; };
+    const bool keeps_numbers =
+        volumes && volumes_ && volumes->sites.size() >= volumes_->sites.size() &&
+        std::equal(volumes_->sites.begin(), volumes_->sites.end(), volumes->sites.begin(), is_same_place);
+    if (!keeps_numbers) ++placement_;
+    volumes_ = volumes;
 }
 
 void RenderLoop::refresh_inspection() {

@@ -76,4 +76,11 @@ void RenderWorker::request_pick(Vec2f image_point) {
     });
 }
 
+void RenderWorker::request_volumes(std::vector<SurfacePlace> places) {
+    inbox_.request([&](Requests& requests) {
+        requests.once.places = std::move(places);
+        return Interrupts::Pass;
+    });
+}
+
 }  // namespace pl::ui

@@ -46,6 +46,8 @@ public:
     void set_cells_wanted(bool wanted) { set(&Requests::cells, wanted); }
     /// Requests the surface under a point of the image, in [0,1)^2 from the top left.
     void request_pick(Vec2f image_point);
+    /// Requests the volumes that serve these places.
+    void request_volumes(std::vector<SurfacePlace> places);
     /// Requests the learned field of the method, after the pass under way.
     void request_learned() { ask(&OneShotRequests::learned); }
     /// Requests the input of find_diagnostics(), after the pass under way.
@@ -59,7 +61,7 @@ public:
     /// Memory for key frames of the field from now on; 0 gives them up.
     void set_history_limit(std::size_t bytes) { set(&Requests::history_bytes, bytes); }
     /// The volume whose inspection frames carry; kNoVolume for none.
-    void select_volume(std::int32_t volume) { set(&Requests::volume, volume); }
+    void select_volume(std::int32_t volume) { set(&Requests::volume, volume, Interrupts::ShownPass); }
 
     std::shared_ptr<const PublishedFrame> latest() { return outbox_.latest(); }
     /// Number of frames published so far.

@@ -15,15 +15,16 @@ namespace pl::ui {
 
 /// Requests that are complete once carried out.
 struct OneShotRequests {
-    int steps = 0;              ///< passes while paused
-    std::optional<Vec2f> pick;  ///< point of the image, in [0,1)^2 from the top left
-    bool learned = false;       ///< the learned field
-    bool diagnostics = false;   ///< the input of find_diagnostics()
-    bool paths = false;         ///< the input of trace_pixel()
-    bool gain = false;          ///< the input of tile_gains()
+    int steps = 0;                       ///< passes while paused
+    std::optional<Vec2f> pick;           ///< point of the image, in [0,1)^2 from the top left
+    std::vector<SurfacePlace> places{};  ///< whose volumes are asked for
+    bool learned = false;                ///< the learned field
+    bool diagnostics = false;            ///< the input of find_diagnostics()
+    bool paths = false;                  ///< the input of trace_pixel()
+    bool gain = false;                   ///< the input of tile_gains()
 
     /// Whether one is to be answered.
-    bool has_question() const { return pick || learned || diagnostics || paths || gain; }
+    bool has_question() const { return pick || !places.empty() || learned || diagnostics || paths || gain; }
 };
 
 struct Requests {

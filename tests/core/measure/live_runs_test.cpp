@@ -42,6 +42,19 @@ TEST_CASE("the charged time is reported while no point is due") {
     CHECK(recording.runs.current()->measure_seconds == spent);
 }
 
+TEST_CASE("the last pass is measured in any case, once") {
+    Recording recording(kPlenty, 0.0);  // no budget
+    recording.render(LiveRuns::kLastMeasured + 7);
+    const std::size_t before = recording.last().points.size();
+    CHECK_FALSE(recording.runs.is_up_to_date(recording.session, recording.slot));
+    CHECK(recording.runs.observe(recording.session, recording.slot, true));
+    CHECK(recording.runs.is_up_to_date(recording.session, recording.slot));
+    CHECK(recording.last().points.size() == before + 1);
+    CHECK(recording.last().points.back().spp == LiveRuns::kLastMeasured + 7);
+    recording.runs.observe(recording.session, recording.slot, true);
+    CHECK(recording.last().points.size() == before + 1);
+}
+
 TEST_CASE("each of the first passes is measured, whatever measuring costs") {
     Recording recording(kPlenty, 0.0);
     recording.render(LiveRuns::kLastMeasured + 3);

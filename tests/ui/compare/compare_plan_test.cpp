@@ -36,11 +36,14 @@ TEST_CASE("Plan: a split shows the parts of two pictures that lie in the same pl
         CHECK(left.clip.x + left.clip.width == right.clip.x);
         CHECK(left.clip.width + right.clip.width == 400.0f);
         CHECK_THAT(*plan.split_x, WithinAbs(10.0 + 400.0 * share, 1e-3));
-        CHECK(plan.at_image);
+        const auto places = picture_places(plan, {}, kView);
+        REQUIRE(places.size() == 1);
+        CHECK(places[0].clip.width == 400.0f);
+        CHECK(place_under(places, {left.place.x + 1.0f, left.place.center().y}).x == left.place.x);
     }
 }
 
-TEST_CASE("Plan: flip shows one at a time, side by side both whole and away from the image") {
+TEST_CASE("Plan: flip shows one at a time, side by side both whole, each under its own pointer") {
     const Runs runs = two_runs();
     CompareState state = state_of(CompareMode::Flip);
     const CompareSides sides = resolve_sides(input_of(runs), state);
@@ -50,7 +53,11 @@ TEST_CASE("Plan: flip shows one at a time, side by side both whole and away from
     const ComparePlan both = plan_comparison(sides, state_of(CompareMode::SideBySide), nullptr, kView);
     REQUIRE(both.tiles.size() == 2);
     CHECK(both.tiles[0].place.x + both.tiles[0].place.width <= both.tiles[1].place.x);
-    CHECK_FALSE(both.at_image);
+    const auto places = picture_places(both, {}, kView);
+    REQUIRE(places.size() == 2);
+    for (const std::size_t tile : {0u, 1u})
+        CHECK(place_under(places, both.tiles[tile].place.center()).x == both.tiles[tile].place.x);
+    CHECK(place_under(places, {kView.x + 1.0f, kView.y + 1.0f}).width == 0.0f);
 }
 
 TEST_CASE("Plan: difference and error map need pictures of the same size, the map a reference") {

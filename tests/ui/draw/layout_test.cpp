@@ -69,15 +69,40 @@ TEST_CASE("Layout: in a narrow window the panels shrink, then float over the pic
     CHECK(narrow.right.width < 25.0f * 16.0f);
     CHECK(narrow.view.width > 400.0f);
     CHECK(narrow.view.width == narrow.clear.width);
-    const Layout floating = make_layout(800.0f, 600.0f, 16.0f, kNoAccuracy, false);
-    CHECK(floating.view.width == 800.0f);
-    CHECK(floating.clear.width < 800.0f);
+    const Layout floating = make_layout(500.0f, 600.0f, 16.0f, kNoAccuracy, false);
+    CHECK(floating.view.width == 500.0f);
+    CHECK(floating.clear.width < 500.0f);
     for (const float width : {1.0f, 100.0f, 400.0f, 640.0f}) {
         const Layout tiny = make_layout(width, 20.0f, 16.0f, kNoAccuracy, false);
-        CHECK(tiny.left.height >= 1.0f);
+        CHECK(tiny.view.height >= 1.0f);
         CHECK(tiny.left.width + tiny.right.width <= width);
         CHECK(tiny.clear.width >= 0.0f);
     }
+}
+
+TEST_CASE("Layout: where panels and picture have no room one side is folded, the one that was not opened last") {
+    PanelChoice choice;
+    const auto layout = [&] { return make_layout(1280.0f, 720.0f, 2.0f * 16.0f, choice, false); };
+    CHECK(layout().one_side);
+    CHECK(layout().left.width == 0.0f);
+    CHECK(layout().right.width > 0.0f);
+    CHECK(layout().view.width >= 18.0f * 2.0f * 16.0f);
+    choice.toggle_settings(true);
+    CHECK(layout().left.width > 0.0f);
+    CHECK(layout().right.width == 0.0f);
+    CHECK(layout().accuracy.width == 0.0f);
+    choice.toggle_settings(true);
+    CHECK(layout().left.width == 0.0f);
+    choice.toggle_settings(true);
+    choice.toggle_right(true);
+    CHECK(layout().left.width == 0.0f);
+    CHECK(layout().right.width > 0.0f);
+    // With room both are as they were opened.
+    choice.settings = true;
+    const Layout wide = make_layout(2560.0f, 1440.0f, 2.0f * 16.0f, choice, false);
+    CHECK_FALSE(wide.one_side);
+    CHECK(wide.left.width > 0.0f);
+    CHECK(wide.right.width > 0.0f);
 }
 
 TEST_CASE("Layout: chosen sizes are taken, as far as picture and text have room") {

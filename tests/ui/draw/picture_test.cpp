@@ -81,17 +81,21 @@ TEST_CASE("Picture: cells are blended by opacity and the selected one is outline
 
     const DisplayFrame black = frame_with(6, 5, Vec3f{0.0f});
     std::vector<std::uint32_t> out(30);
-    write_picture(black, {&image, 1.0f, std::nullopt}, out.data(), 6);
+    write_picture(black, {std::make_shared<const CellImage>(image), 1.0f, std::nullopt}, out.data(), 6);
     CHECK(out == image.argb);
-    write_picture(black, {&image, 0.0f, std::nullopt}, out.data(), 6);
+    write_picture(black, {std::make_shared<const CellImage>(image), 0.0f, std::nullopt}, out.data(), 6);
     CHECK(out == std::vector<std::uint32_t>(30, gray_code(0)));
 
     CellImage tint = image;
     tint.argb.assign(30, 0xff102030u);
-    write_picture(black, {&image, 1.0f, std::nullopt, &tint}, out.data(), 6);
+    write_picture(
+        black,
+        {std::make_shared<const CellImage>(image), 1.0f, std::nullopt, std::make_shared<const CellImage>(tint)},
+        out.data(), 6);
     CHECK(out == tint.argb);
 
-    write_picture(frame_with(6, 5, Vec3f{0.25f}), {&image, 0.0f, cell_color(2, kTable.view())}, out.data(), 6);
+    write_picture(frame_with(6, 5, Vec3f{0.25f}),
+                  {std::make_shared<const CellImage>(image), 0.0f, cell_color(2, kTable.view())}, out.data(), 6);
     const std::uint32_t plain = gray_code(kTable(0.25f));
     CHECK(out[1 * 6 + 1] == 0xffffffffu);  // border of the cell
     CHECK(out[2 * 6 + 2] == plain);        // its inside
@@ -102,7 +106,8 @@ TEST_CASE("Picture: cells are blended by opacity and the selected one is outline
 TEST_CASE("Picture: cells of another size are not laid over") {
     const CellImage image = make_cell_image(frame_with(2, 2, color_of_id(1)));
     std::vector<std::uint32_t> out(6);
-    write_picture(frame_with(3, 2, Vec3f{0.0f}), {&image, 1.0f, cell_color(1, kTable.view())}, out.data(), 3);
+    write_picture(frame_with(3, 2, Vec3f{0.0f}),
+                  {std::make_shared<const CellImage>(image), 1.0f, cell_color(1, kTable.view())}, out.data(), 3);
     CHECK(out == std::vector<std::uint32_t>(6, gray_code(0)));
 }
 

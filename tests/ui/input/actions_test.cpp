@@ -118,7 +118,7 @@ TEST_CASE("Actions: the table for the manual lists all of them") {
     const std::string table = key_table();
     for (const Action& action : all_actions()) CHECK_THAT(table, test::contains(action.text));
     for (const MouseAction& action : mouse_actions()) CHECK_THAT(table, test::contains(action.text));
-    CHECK_THAT(table, test::contains("| `F1` or `?` | this list |"));
+    CHECK_THAT(table, test::contains("| `F1` or `?` | keys and mouse |"));
     const auto lines = static_cast<std::size_t>(std::count(table.begin(), table.end(), '\n'));
     CHECK(lines == 2 + all_actions().size() + mouse_actions().size());
 }

@@ -53,7 +53,7 @@ TEST_CASE("Guided tour: two methods without light samples in turns, split, every
     CHECK(model.window().panels.right);
 }
 
-TEST_CASE("Guided tour: a task has to be done for a while, and is then followed by the next step") {
+TEST_CASE("Guided tour: a task has to be done for a while, and is then followed by what was seen") {
     FileBench bench;
     ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
     REQUIRE(begin(bench, model));
@@ -62,25 +62,46 @@ TEST_CASE("Guided tour: a task has to be done for a while, and is then followed 
     model.update(bench.clock += 0.1);
     model.comparison().set_split(split);  // back before the time has passed
     model.update(bench.clock += 2.0 * GuidedTour::kRestSeconds);
-    CHECK(model.tour().step() == 0);
+    CHECK_FALSE(model.tour().is_seen());
     model.comparison().set_split(0.25f);
     model.update(bench.clock += 0.1);
-    CHECK(model.tour().step() == 0);
+    CHECK_FALSE(model.tour().is_seen());
     model.update(bench.clock += GuidedTour::kRestSeconds);
+    CHECK(model.tour().is_seen());
+    CHECK(model.tour().step() == 0);  // until the user goes on
+    for (int step = 0; step < static_cast<int>(tour_steps().size()); ++step)
+        CHECK_FALSE(seen_text(model, step).empty());
+    model.tour().next_step(model);
     CHECK(model.tour().step() == 1);
+    CHECK_FALSE(model.tour().is_seen());
+    model.tour().last_step(model);
+    model.tour().last_step(model);  // there is none before the first
+    CHECK(model.tour().step() == 0);
 }
 
-TEST_CASE("Guided tour: left and continued, skipped to the end, and begun again") {
+TEST_CASE("Guided tour: the camera of the step about another view comes back with the next one") {
     FileBench bench;
     ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
     REQUIRE(begin(bench, model));
-    model.tour().skip_step(model);
+    for (int step = 0; step < 4; ++step) model.tour().next_step(model);
+    const Vec3f eye = model.camera().camera().eye;
+    model.camera().fly({.right = 1.0f}, 0.1);
+    CHECK(model.camera().camera().eye != eye);
+    model.tour().next_step(model);
+    CHECK(model.camera().camera().eye == eye);
+}
+
+TEST_CASE("Guided tour: left and continued, gone through to the end, and begun again") {
+    FileBench bench;
+    ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
+    REQUIRE(begin(bench, model));
+    model.tour().next_step(model);
     model.tour().leave();
-    model.tour().skip_step(model);  // nothing while it is off
+    model.tour().next_step(model);  // nothing while it is off
     CHECK(model.tour().step() == 1);
     REQUIRE(begin(bench, model));
     CHECK(state_text(model.tour()) == "2");
-    for (std::size_t i = 1; i < tour_steps().size(); ++i) model.tour().skip_step(model);
+    for (std::size_t i = 1; i < tour_steps().size(); ++i) model.tour().next_step(model);
     CHECK(model.tour().phase() == Phase::Finished);
     model.tour().leave();
     REQUIRE(begin(bench, model));

@@ -93,3 +93,17 @@ TEST_CASE("Cursors: the picture is the one nearest in time, or the first below t
     run->points[4].metrics->relmse = 0.5;
     CHECK(point_at(*run, {}, {CursorKind::EqualError, 0.26}) == 5u);
 }
+
+TEST_CASE("Runs: settings of their own stand first in the name, and have a color of their own") {
+    Runs runs = two_runs();
+    const auto tree = make_run({.number = 3, .method = MethodId::Reinforcement});
+    const auto many = make_run({.number = 4, .method = MethodId::Reinforcement});
+    tree->label.details = "SD-tree";
+    many->label.details = "4000 volumes";
+    runs.push_back(tree);
+    runs.push_back(many);
+    CHECK(name_of(tree->label) == "Reinforcement (SD-tree) CPU");
+    CHECK(run_color(runs, runs[1]->label) == info_of(MethodId::Reinforcement).color);
+    CHECK(run_color(runs, tree->label) != run_color(runs, runs[1]->label));
+    CHECK(run_color(runs, tree->label) != run_color(runs, many->label));
+}

@@ -145,6 +145,34 @@ TEST_CASE("Run table: other settings are another row, a repetition replaces the 
     CHECK(make_run_table(with_begun, kThisPicture).rows[1].run == 2);
 }
 
+TEST_CASE("Run table: one sentence on two methods in turns, by the number of the table") {
+    const std::array<MethodId, 2> methods{MethodId::Reinforcement, MethodId::Default};
+    Runs runs = two_runs();
+    RunTable table = make_run_table(runs, kThisPicture);
+    // Without an interval nothing is claimed.
+    CHECK(turns_headline(table, methods, false).text ==
+          "Both halves get the same time. Has the left one less noise?");
+    CHECK(turns_headline(table, methods, false).detail == "");
+    RunRow& row = table.rows[1];
+    const auto say = [&](double low, double value, double high) {
+        row.gain->net = {value, low, high};
+        row.gain->source = IntervalSource::Blocks;
+        return turns_headline(table, methods, false).text;
+    };
+    CHECK(say(4.9, 5.2, 5.5) ==
+          "Same time, and the left half is 5.2 times ahead: its paths have learned where the light comes from.");
+    CHECK(turns_headline(table, methods, false).detail ==
+          "Measured: for the same noise the right half would need 5.2 times as long (4.9 to 5.5).");
+    CHECK(learning_row(table, false) == &row);
+    CHECK(learning_row(table, true) == nullptr);
+    CHECK(say(0.45, 0.5, 0.55) == "Same time, and the left half is 2 times behind: learning does not pay here.");
+    CHECK_THAT(say(0.8, 1.0, 1.3), contains("no difference in noise"));
+    say(4.9, 5.2, 5.5);
+    CHECK_THAT(turns_headline(table, {MethodId::Default, MethodId::Reinforcement}, false).text,
+               contains("the right half is 5.2 times ahead"));
+    CHECK_THAT(turns_headline(table, methods, true).text, contains("Has the left one less noise?"));
+}
+
 TEST_CASE("Run table: as plain when learning loses, and without a reference") {
     const auto losing = make_run({.number = 2,
                                   .method = MethodId::Precomputed,

@@ -65,3 +65,17 @@ TEST_CASE("Render worker: a selected volume without tables is no error") {
     CHECK(worker.latest()->volume->side == 0);
     CHECK(worker.take_messages().empty());
 }
+
+TEST_CASE("Render worker: a selected volume is shown before the pass under way ends") {
+    Bench bench;
+    RenderWorker worker(bench.setup(MethodId::Reinforcement));
+    REQUIRE(frame_of(worker, 0));
+    bench.control->hold = true;
+    REQUIRE(eventually([&] { return bench.control->inside.load(); }));
+    worker.select_volume(2);
+    CHECK(eventually([&] {
+        const auto frame = worker.latest();
+        return frame->volume && frame->volume->volume == 2;
+    }));
+    bench.control->hold = false;
+}
