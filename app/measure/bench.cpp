@@ -52,7 +52,8 @@ int report(const bench::BenchResults& results, const std::optional<bench::BenchR
         return kExitInterrupted;
     }
     console.result(bench::summary_text(results.summary));
-    console.remark(fmt::format("{}: results.json, series.csv, summary.csv, summary.md, summary.tex\n", options.output));
+    console.remark(
+        fmt::format("{}: results.json, series.csv, summary.csv, summary.md, summary.tex\n", options.output));
     if (options.seeds < static_cast<int>(kGoodRuns))
         console.log().notice(
             fmt::format("{} seeds: intervals from fewer than {} runs are rough", options.seeds, kGoodRuns));

@@ -15,7 +15,8 @@ int run_score(const CommandLine& line, Console& console) {
     results.command = fmt::format("pathlight score {}", shell_word(line.options.inputs.front()));
     bench::write_results(folder, results);
     console.result(bench::summary_text(results.summary));
-    console.remark(fmt::format("{}: results.json, series.csv, summary.csv, summary.md, summary.tex\n", folder.path().string()));
+    console.remark(
+        fmt::format("{}: results.json, series.csv, summary.csv, summary.md, summary.tex\n", folder.path().string()));
     console.event("done", {{"output", folder.path().string()}, {"runs", results.runs.size()}});
     return 0;
 }

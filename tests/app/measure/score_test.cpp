@@ -70,7 +70,8 @@ TEST_CASE("pictures of others have the errors and gains that follow from their p
     CHECK_THAT(gain.at("cost").at(0).get<double>(), WithinRel(0.5, 1e-9));
     CHECK_THAT(gain.at("net").at(0).get<double>(), WithinRel(4.0, 1e-9));
     CHECK_THAT(read_all(folder / "summary.md"), contains("| room | cpu | guided | 5 | 0.0619"));
-    CHECK_THAT(read_all(folder / "summary.tex"), contains("room & cpu & guided & 0.0619 (0.0619 to 0.0619) & 8 (8 to 8) & 4 (4 to 4) \\\\\n"));
+    CHECK_THAT(read_all(folder / "summary.tex"),
+               contains("room & cpu & guided & 0.0619 (0.0619 to 0.0619) & 8 (8 to 8) & 4 (4 to 4) \\\\\n"));
     CHECK_THAT(read_all(folder / "series.csv"), contains("room,guided,cpu,3,0,2,0,0,0,0,0,0,8,8,0.0625,"));
     run_well({"report", folder.path().string()});
     CHECK_THAT(read_all(folder / "report.html"), contains("two cores") && contains("room"));
