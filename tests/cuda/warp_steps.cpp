@@ -107,9 +107,8 @@ void count_plain(const BvhView& bvh, const std::vector<Ray>& rays, Counts& count
 class PostponingWarp {
 public:
     PostponingWarp(const BvhView& bvh, const std::vector<Ray>& rays, Counts& counts)
-        : bvh_(bvh), lanes_(lanes_of(rays)), memories_(rays.size() * kMaxBvhDepth), counts_(counts) {
-        for (std::size_t i = 0; i < rays.size(); ++i)
-            ways_.emplace_back(bvh, rays[i], rays[i].t_max, &memories_[i * kMaxBvhDepth]);
+        : bvh_(bvh), lanes_(lanes_of(rays)), memories_(rays.size()), counts_(counts) {
+        for (std::size_t i = 0; i < rays.size(); ++i) ways_.emplace_back(bvh, rays[i], rays[i].t_max, memories_[i]);
     }
 
     void run() {
@@ -141,7 +140,7 @@ private:
 
     const BvhView& bvh_;
     std::vector<Lane> lanes_;
-    std::vector<NodeReference> memories_;
+    std::vector<NodeMemory> memories_;
     std::vector<PostponedTraversal> ways_;
     Counts& counts_;
 };
