@@ -13,39 +13,28 @@ charged. Exit code 77: pyoidn cannot be installed here.
 import argparse
 import json
 import os
-import resource
 import subprocess
 from pathlib import Path
 
-from run_peers import python_with
+from run_peers import processor_seconds, python_with
 
 METHODS = ("default", "reinforcement")
 GUIDES = ("albedo", "normal")
-# Reads lines of four file names: color, albedo, normal, picture to write. Rows of a PFM file go upwards, which a denoiser does not mind.
+# Given the folder of pictures.py, reads lines of four file names: color, albedo, normal, picture to write.
 DENOISE = r"""
 import sys
 import numpy as np
 import pyoidn
+sys.path.insert(0, sys.argv[1])
+from pictures import read_pfm, write_pfm
 def read(path):
-    with open(path, "rb") as file:
-        assert file.readline().strip() == b"PF"
-        width, height = map(int, file.readline().split())
-        assert float(file.readline()) < 0
-        return np.frombuffer(file.read(), "<f4").reshape(height, width, 3).copy()
+    width, height, values = read_pfm(path)
+    return np.frombuffer(values, np.float32).reshape(height, width, 3)
 for line in sys.stdin:
     color, albedo, normal, output = line.rstrip("\n").split("\t")
-    color = read(color)
-    picture = pyoidn.denoise(color, albedo=np.clip(read(albedo), 0, 1), normal=read(normal), hdr=True)
-    with open(output, "wb") as file:
-        file.write(b"PF\n%d %d\n-1.0\n" % (color.shape[1], color.shape[0]) + np.asarray(picture, "<f4").tobytes())
+    picture = pyoidn.denoise(read(color), albedo=np.clip(read(albedo), 0, 1), normal=read(normal), hdr=True)
+    write_pfm(output, picture.shape[1], picture.shape[0], picture.ravel())
 """
-
-
-def run(program, *arguments):
-    """Seconds of processor time."""
-    before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
-    subprocess.run([program, *map(str, arguments)], check=True, capture_output=True)
-    return resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before
 
 
 class Scene:
@@ -56,17 +45,20 @@ class Scene:
         self.folder = options.folder / "pictures" / self.name
         self.folder.mkdir(parents=True, exist_ok=True)
 
+    def seconds(self, subcommand, *arguments):
+        return processor_seconds(self.options.program, subcommand, self.scene, *arguments, *self.options.render)
+
     def reference(self):
         """The halves, relative to a folder of scores."""
         folder = self.options.folder / "references" / self.name
-        run(self.options.program, "reference", self.scene, "-o", folder, "--spp", self.options.reference_spp, *self.options.render)
+        self.seconds("reference", "-o", folder, "--spp", self.options.reference_spp)
         return [os.path.relpath(half, self.options.folder / "noisy") for half in sorted(folder.glob("*.exr"))]
 
     def guides(self):
         for view in GUIDES:
             picture = self.folder / f"{view}.pfm"
             if not picture.exists():
-                run(self.options.program, "render", self.scene, "--view", view, "--spp", 64, "-o", picture, *self.options.render)
+                self.seconds("render", "--view", view, "--spp", 64, "-o", picture)
         return [self.folder / f"{view}.pfm" for view in GUIDES]
 
     def picture(self, method, seed, spp, loading):
@@ -74,8 +66,7 @@ class Scene:
         picture = self.folder / f"{method}-{spp}-{seed}.pfm"
         told = picture.with_suffix(".json")
         if not told.exists():
-            seconds = run(self.options.program, "render", self.scene, "--method", method, "--seed", seed, "--spp", spp, "-o", picture,
-                          *self.options.render)
+            seconds = self.seconds("render", "--method", method, "--seed", seed, "--spp", spp, "-o", picture)
             told.write_text(json.dumps(max(seconds - loading, 1e-3)))
         return picture, json.loads(told.read_text())
 
@@ -91,14 +82,15 @@ def main():
     parser.add_argument("--render", default=[], type=str.split, help="options of render, in one word")
     options = parser.parse_args()
     options.folder = options.folder.resolve()
-    denoiser = subprocess.Popen([python_with("pyoidn", options.folder), "-c", DENOISE], stdin=subprocess.PIPE, text=True)
+    denoiser = subprocess.Popen([python_with("pyoidn", options.folder), "-c", DENOISE, Path(__file__).parent],
+                                stdin=subprocess.PIPE, text=True)
     for kind in ("noisy", "denoised"):
         (options.folder / kind).mkdir(parents=True, exist_ok=True)
     references, pictures = {}, []
     for scene in [Scene(name, options) for name in options.scenes]:
         references[scene.name] = scene.reference()
         guides = scene.guides()
-        loading = run(options.program, "info", scene.scene)
+        loading = processor_seconds(options.program, "info", scene.scene)
         for seed in range(1, options.seeds + 1):
             for method in METHODS:
                 for spp in options.spp:

@@ -9,6 +9,7 @@ cannot be installed here.
 """
 import argparse
 import os
+import resource
 import subprocess
 import sys
 import time
@@ -52,6 +53,13 @@ def python_with(package, folder):
         if installed.returncode != 0 or started.returncode != 0:
             skip(package, installed if installed.returncode != 0 else started)
     return python
+
+
+def processor_seconds(*command):
+    """User time of a command, which has to succeed."""
+    before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
+    subprocess.run([*map(str, command)], check=True, capture_output=True)
+    return resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before
 
 
 def checked(result, what):

@@ -16,7 +16,6 @@ import json
 import math
 import os
 import re
-import resource
 import shutil
 import statistics
 import subprocess
@@ -24,7 +23,7 @@ import sys
 from pathlib import Path
 
 from pictures import read_pfm
-from run_peers import PEERS, python_with
+from run_peers import PEERS, processor_seconds, python_with
 
 MITSUBA = r"""
 import resource, sys
@@ -105,10 +104,8 @@ class Mitsuba:
 
 
 def pathlight_seconds(program, scene, size, spp, method, seed, output):
-    before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
-    subprocess.run([program, "render", scene, "--size", f"{size[0]}x{size[1]}", "--spp", str(spp), "--method", method,
-                    "--seed", str(seed), "--max-depth", "10", "-o", output], check=True, capture_output=True)
-    return resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before
+    return processor_seconds(program, "render", scene, "--size", f"{size[0]}x{size[1]}", "--spp", spp, "--method", method,
+                             "--seed", seed, "--max-depth", "10", "-o", output)
 
 
 def main():
