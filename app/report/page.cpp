@@ -5,10 +5,25 @@
 
 #include <fmt/format.h>
 
-#include "app/report/plot.h"
+#include "app/report/bench_plots.h"
+#include "core/base/printable.h"
 #include "core/io/picture_file.h"
 
 namespace pl {
+
+std::string base64(std::string_view bytes) {
+    constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string text;
+    text.reserve((bytes.size() + 2) / 3 * 4);
+    for (std::size_t i = 0; i < bytes.size(); i += 3) {
+        std::uint32_t group = 0;
+        for (std::size_t k = 0; k < 3; ++k)
+            group = group << 8 | (i + k < bytes.size() ? static_cast<std::uint8_t>(bytes[i + k]) : 0u);
+        for (std::size_t k = 0; k < 4; ++k) text += i + k > bytes.size() ? '=' : kDigits[group >> (18 - 6 * k) & 63u];
+    }
+    return text;
+}
+
 namespace {
 
 /// The middle of a picture, unscaled: scaling would average away the noise.
@@ -63,9 +78,8 @@ Json cell_data(const bench::BenchFolder& folder, const bench::BenchRun& run, flo
                           {"relmse", point->metrics.relmse},
                           {"picture", data_url(read_exr(path), exposure_ev)}});
     }
-    const Rgb color = method_color(run.cell.method);
     return {{"title", fmt::format("{}, {}", run.cell.method, run.cell.backend)},
-            {"color", fmt::format("rgb({},{},{})", color[0], color[1], color[2])},
+            {"color", fmt::format("#{:06x}", method_color(run.cell.method) & 0xffffffu)},
             {"points", points}};
 }
 
@@ -101,7 +115,7 @@ namespace {
 
 std::string row(const std::vector<std::string>& cells, const char* tag = "td") {
     std::string text = "<tr>";
-    for (const std::string& cell : cells) text += fmt::format("<{0}>{1}</{0}>", tag, escape_markup(cell));
+    for (const std::string& cell : cells) text += fmt::format("<{0}>{1}</{0}>", tag, markup_text(cell));
     return text + "</tr>\n";
 }
 
@@ -110,8 +124,8 @@ std::string headlines(const bench::BenchSummary& summary, const std::string& sce
     for (const bench::Comparison& comparison : summary.comparisons)
         if (comparison.cell.scene == scene)
             text += fmt::format("<p class=\"headline\"><b>{}</b> on {} {}.</p>\n",
-                                escape_markup(comparison.cell.method), escape_markup(comparison.cell.backend),
-                                escape_markup(headline(comparison.gain, comparison.base_method)));
+                                markup_text(comparison.cell.method), markup_text(comparison.cell.backend),
+                                markup_text(headline(comparison.gain, comparison.base_method)));
     return text;
 }
 
@@ -199,9 +213,9 @@ std::string about(const bench::BenchResults& results) {
         "<p>{}; pathlight {}, commit {}; {}. Runs are in shuffled blocks of one seed each; the first run of each "
         "method is a warm-up and left out. Measuring took up to {:.1f} % on top of the charged time.</p>\n"
         "<pre>{}</pre>\n",
-        escape_markup(results.date), PL_VERSION,
-        escape_markup(fmt::format("{}", fmt::join(bench::commits_of(results.runs), ", "))), escape_markup(devices),
-        100.0 * share, escape_markup(results.command));
+        markup_text(results.date), PL_VERSION,
+        markup_text(fmt::format("{}", fmt::join(bench::commits_of(results.runs), ", "))), markup_text(devices),
+        100.0 * share, markup_text(results.command));
 }
 
 std::string warnings(const bench::BenchResults& results) {
@@ -246,7 +260,7 @@ std::string report_page(const bench::BenchResults& results, const std::vector<Na
     text += about(results) + warnings(results);
     for (std::size_t i = 0; i < pictures.size(); ++i) {
         const std::string scene = pictures[i].at("scene");
-        text += fmt::format("<h2>{}</h2>\n", escape_markup(scene)) + headlines(results.summary, scene);
+        text += fmt::format("<h2>{}</h2>\n", markup_text(scene)) + headlines(results.summary, scene);
         for (const NamedPlot& plot : plots)
             if (plot.scene == scene) text += svg_plot(plot.plot);
         text += cell_table(results.summary, scene) + target_table(results.summary, scene) +

@@ -2,11 +2,15 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
-#include "app/report/plot.h"
+#include "app/report/bench_plots.h"
 #include "core/bench/bench_results.h"
 
 namespace pl {
+
+/// [RFC 4648, section 4]
+std::string base64(std::string_view bytes);
 
 // The pictures of a bench for its page: each method's at equal time or at equal error.
 

@@ -60,6 +60,42 @@ std::string printable(std::string_view text) {
     return result;
 }
 
+std::string csv_text(std::string_view text) {
+    const bool is_formula = !text.empty() && std::string_view("=+-@\t\r").find(text[0]) != text.npos;
+    const std::string field = std::string(is_formula ? "'" : "").append(text);
+    if (field.find_first_of(",\"\r\n") == field.npos) return field;
+    std::string quoted = "\"";
+    for (const char c : field) quoted.append(c == '"' ? 2 : 1, c);
+    return quoted + "\"";
+}
+
+std::string markup_text(std::string_view text) {
+    std::string result;
+    for (const char c : text) switch (c) {
+        case '&': result += "&amp;"; break;
+        case '<': result += "&lt;"; break;
+        case '>': result += "&gt;"; break;
+        case '"': result += "&quot;"; break;
+        case '\'': result += "&#39;"; break;
+        default: result += c;
+        }
+    return result;
+}
+
+std::string latex_text(std::string_view text) {
+    constexpr std::string_view kEscaped = "&%$#_{}";
+    std::string escaped;
+    for (const char c : text) {
+        if (c == '\\')
+            escaped += "\\textbackslash{}";
+        else if (c == '~' || c == '^')
+            (escaped += '\\').append(1, c) += "{}";
+        else
+            escaped.append(kEscaped.find(c) == kEscaped.npos ? 0 : 1, '\\').append(1, c);
+    }
+    return escaped;
+}
+
 namespace {
 
 template <class T>

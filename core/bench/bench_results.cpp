@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "core/base/printable.h"
 #include "core/bench/figures_json.h"
 #include "core/io/files.h"
 
@@ -81,18 +82,8 @@ Json comparisons_json(const BenchSummary& summary) {
 
 std::string csv_number(double value) { return std::isfinite(value) ? fmt::format("{:.9g}", value) : ""; }
 
-/// A name as a field of CSV [RFC 4180] that spreadsheets do not take for a formula.
-std::string csv_name(const std::string& name) {
-    const bool is_formula = !name.empty() && std::string_view("=+-@\t\r").find(name[0]) != std::string_view::npos;
-    const std::string text = fmt::format("{}{}", is_formula ? "'" : "", name);
-    if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-    std::string quoted = "\"";
-    for (const char c : text) quoted.append(c == '"' ? 2 : 1, c);
-    return quoted + "\"";
-}
-
 std::string csv_cell(const BenchCell& cell) {
-    return fmt::format("{},{},{}", csv_name(cell.scene), csv_name(cell.method), csv_name(cell.backend));
+    return fmt::format("{},{},{}", csv_text(cell.scene), csv_text(cell.method), csv_text(cell.backend));
 }
 
 std::string series_csv(const std::vector<BenchRun>& runs) {
@@ -131,7 +122,7 @@ std::string summary_csv(const BenchSummary& summary) {
         for (const Comparison& comparison : summary.comparisons) {
             if (comparison.cell != cell.cell) continue;
             const Gain& gain = comparison.gain;
-            gain_columns = fmt::format(",{}", csv_name(comparison.base_method));
+            gain_columns = fmt::format(",{}", csv_text(comparison.base_method));
             for (const double value : {gain.samples.value, gain.cost.value, gain.net.value, gain.net.low,
                                        gain.net.high, gain.ahead_from_seconds.value_or(NAN)})
                 gain_columns.append(1, ',').append(csv_number(value));
@@ -159,20 +150,6 @@ std::string summary_markdown(const BenchSummary& summary) {
         text += fmt::format("* {}, {}: {} {}\n", comparison.cell.scene, comparison.cell.backend,
                             comparison.cell.method, headline(comparison.gain, comparison.base_method));
     return text;
-}
-
-std::string latex_text(const std::string& text) {
-    constexpr std::string_view kEscaped = "&%$#_{}";
-    std::string escaped;
-    for (const char c : text) {
-        if (c == '\\')
-            escaped += "\\textbackslash{}";
-        else if (c == '~' || c == '^')
-            (escaped += '\\').append(1, c) += "{}";
-        else
-            escaped.append(kEscaped.find(c) == kEscaped.npos ? 0 : 1, '\\').append(1, c);
-    }
-    return escaped;
 }
 
 /// A table of package booktabs: errors, and gains over the first method.

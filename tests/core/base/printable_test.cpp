@@ -34,3 +34,13 @@ TEST_CASE("Bytes that are no UTF-8 are replaced one by one") {
     CHECK(printable("\xC3(") == r + "(");
     CHECK(printable("\xE2\x82") == r + r);
 }
+
+TEST_CASE("Names are fields of CSV, text of pages and of LaTeX") {
+    CHECK(csv_text("door") == "door");
+    CHECK(csv_text("a,b") == "\"a,b\"");
+    CHECK(csv_text("say \"a\"") == "\"say \"\"a\"\"\"");
+    CHECK(csv_text("=1+1") == "'=1+1");  // no formula
+    CHECK(markup_text("<a href='x'>\"&\"") == "&lt;a href=&#39;x&#39;&gt;&quot;&amp;&quot;");
+    CHECK(markup_text("").empty());
+    CHECK(latex_text("a_b & 5 % \\x") == "a\\_b \\& 5 \\% \\textbackslash{}x");
+}

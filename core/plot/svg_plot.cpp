@@ -1,42 +1,13 @@
-#include "app/report/plot.h"
+#include "core/plot/svg_plot.h"
 
 #include <algorithm>
-#include <cmath>
-#include <cstdint>
 #include <limits>
-#include <optional>
-#include <set>
 
 #include <fmt/format.h>
 
+#include "core/base/printable.h"
+
 namespace pl {
-
-std::string escape_markup(std::string_view text) {
-    std::string result;
-    for (const char c : text) switch (c) {
-        case '&': result += "&amp;"; break;
-        case '<': result += "&lt;"; break;
-        case '>': result += "&gt;"; break;
-        case '"': result += "&quot;"; break;
-        case '\'': result += "&#39;"; break;
-        default: result += c;
-        }
-    return result;
-}
-
-std::string base64(std::string_view bytes) {
-    constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string text;
-    text.reserve((bytes.size() + 2) / 3 * 4);
-    for (std::size_t i = 0; i < bytes.size(); i += 3) {
-        std::uint32_t group = 0;
-        for (std::size_t k = 0; k < 3; ++k)
-            group = group << 8 | (i + k < bytes.size() ? static_cast<std::uint8_t>(bytes[i + k]) : 0u);
-        for (std::size_t k = 0; k < 4; ++k) text += i + k > bytes.size() ? '=' : kDigits[group >> (18 - 6 * k) & 63u];
-    }
-    return text;
-}
-
 namespace {
 
 struct Range {
@@ -52,29 +23,43 @@ struct Range {
 
 class SvgPlot {
 public:
-    explicit SvgPlot(const Plot& plot) : plot_(plot), x_axis_(plot.x_axis()), y_axis_(plot.y_axis()) {}
+    explicit SvgPlot(const Plot& plot) : plot_(plot), x_axis_(plot.x_axis()), y_axis_(plot.y_axis()) {
+        for (const PlotSeries& series : plot.series) {
+            const int legend = kLegendText + kCharacterWidth * static_cast<int>(series.name.size());
+            layout_.width += std::max(legend - layout_.right, 0);
+            layout_.right = std::max(legend, layout_.right);
+        }
+    }
 
     std::string draw() {
         text_ = fmt::format(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1}\" width=\"{0}\" height=\"{1}\" "
             "font-family=\"sans-serif\" font-size=\"13\" role=\"img\">\n<title>{2}</title>\n"
             "<rect width=\"{0}\" height=\"{1}\" fill=\"#fff\"/>\n",
-            layout_.width, layout_.height, escape_markup(plot_.title));
+            layout_.width, layout_.height, markup_text(plot_.title));
         draw_floor();
         draw_axes();
+        text_ +=
+            fmt::format("<clipPath id=\"frame\"><rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"/></clipPath>\n"
+                        "<g clip-path=\"url(#frame)\">\n",
+                        layout_.left, layout_.top, frame_right() - layout_.left, frame_bottom() - layout_.top);
         for (const PlotSeries& series : plot_.series) draw_band(series);
         for (const PlotSeries& series : plot_.series) draw_line(series);
+        text_ += "</g>\n";
         draw_legend();
         return text_ + "</svg>\n";
     }
 
 private:
+    static constexpr int kLegendText = 44;     ///< from the frame to the names, pixels
+    static constexpr int kCharacterWidth = 8;  ///< of a name in the legend at most, pixels
+
     double x(double value) const { return layout_.x(x_axis_, value); }
     double y(double value) const { return layout_.y(y_axis_, value); }
     int frame_right() const { return layout_.width - layout_.right; }
     int frame_bottom() const { return layout_.height - layout_.bottom; }
 
-    static std::string color(const Rgb& rgb) { return fmt::format("#{:02x}{:02x}{:02x}", rgb[0], rgb[1], rgb[2]); }
+    static std::string color(std::uint32_t argb) { return fmt::format("#{:06x}", argb & 0xffffffu); }
     static std::string dashes(int style) {
         return style == 0 ? "" : style == 1 ? " stroke-dasharray=\"8 4\"" : " stroke-dasharray=\"2 4\"";
     }
@@ -86,7 +71,7 @@ private:
     void words(double at_x, double at_y, const char* anchor, const std::string& text, const char* more = "") {
         if (text.empty()) return;
         text_ += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\"{}>{}</text>\n", at_x, at_y, anchor,
-                             more, escape_markup(text));
+                             more, markup_text(text));
     }
 
     void draw_floor() {
@@ -135,7 +120,7 @@ private:
         for (const PlotPoint& point : series.line)
             text_ +=
                 fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3.5\" fill=\"{}\"><title>{}</title></circle>\n",
-                            x(point.x), y(point.y), color(series.color), escape_markup(point.note));
+                            x(point.x), y(point.y), color(series.color), markup_text(point.note));
     }
 
     void draw_legend() {
@@ -161,6 +146,7 @@ private:
 }  // namespace
 
 LogAxis Plot::x_axis() const {
+    if (x_shown) return *x_shown;
     Range range;
     for (const PlotSeries& one : series) {
         for (const PlotPoint& point : one.line) range.add(point.x);
@@ -170,6 +156,7 @@ LogAxis Plot::x_axis() const {
 }
 
 LogAxis Plot::y_axis() const {
+    if (y_shown) return *y_shown;
     Range range;
     for (const PlotSeries& one : series) {
         for (const PlotPoint& point : one.line) range.add(point.y);
@@ -181,116 +168,6 @@ LogAxis Plot::y_axis() const {
     return {range.low, range.high};
 }
 
-Rgb method_color(const std::string& method) {
-    if (method == "default") return {0, 114, 178};
-    if (method == "precomputed") return {230, 159, 0};
-    if (method == "reinforcement") return {0, 158, 115};
-    return {204, 121, 167};
-}
-
 std::string svg_plot(const Plot& plot) { return SvgPlot(plot).draw(); }
-
-namespace {
-
-constexpr int kBandPoints = 32;
-
-/// Samples per pixel at which any run of a cell was measured. Runs differ: points are left out where measuring would
-/// take too long.
-std::set<std::uint32_t> steps_of(const std::vector<const bench::BenchRun*>& runs) {
-    std::set<std::uint32_t> steps;
-    for (const bench::BenchRun* run : runs)
-        for (const RunPoint& point : run->series.points) steps.insert(point.spp);
-    return steps;
-}
-
-/// Charged seconds over samples per pixel.
-Curve seconds_over_samples(const RunSeries& series) {
-    Curve curve;
-    for (const RunPoint& point : series.points)
-        curve.push_back({static_cast<double>(point.spp), charged_seconds(point.clocks)});
-    return curve;
-}
-
-/// Geometric mean over curves; empty unless the range of each holds `cost`.
-std::optional<double> mean_at(const std::vector<Curve>& curves, double cost) {
-    const auto interval = error_interval_at(curves, cost);
-    return interval && interval->value > 0.0 ? std::optional(interval->value) : std::nullopt;
-}
-
-std::vector<PlotPoint> line_of(const std::vector<bench::BenchRun>& all, const bench::CellSummary& cell,
-                               bool over_time) {
-    std::vector<const bench::BenchRun*> runs;
-    std::vector<Curve> seconds;
-    for (const bench::BenchRun& run : all)
-        if (!run.warm_up && run.cell == cell.cell) {
-            runs.push_back(&run);
-            seconds.push_back(seconds_over_samples(run.series));
-        }
-    std::vector<PlotPoint> line;
-    for (const std::uint32_t spp : steps_of(runs)) {
-        const auto error = mean_at(cell.over_samples, spp);
-        const auto time = mean_at(seconds, spp);
-        if (!error || !time) continue;
-        line.push_back(
-            {over_time ? *time : static_cast<double>(spp), *error,
-             fmt::format("{}: {} samples, {:.3g} s, relMSE {:.3g}", cell.cell.title(), spp, *time, *error)});
-    }
-    return line;
-}
-
-std::vector<BandPoint> band_of(const std::vector<Curve>& curves) {
-    std::vector<BandPoint> band;
-    const auto range = common_range(curves);
-    if (!range || curves.size() < kFewestRuns) return band;
-    for (const double cost : log_spaced(range->first, range->last, kBandPoints)) {
-        const auto interval = error_interval_at(curves, cost);
-        if (interval && std::isfinite(interval->low) && std::isfinite(interval->high))
-            band.push_back({cost, interval->low, interval->high});
-    }
-    return band;
-}
-
-int style_of(const Json& plan, const std::string& backend) {
-    int style = 0;
-    for (const auto& [name, device] : plan.at("backends").items()) {
-        if (name == backend) return style;
-        style = std::min(style + 1, 2);
-    }
-    return style;
-}
-
-Plot make_plot(const bench::BenchResults& results, const std::string& scene, bool over_time) {
-    Plot plot{.title = scene,
-              .x_label = over_time ? "seconds: placing, precomputing, learning, rendering" : "samples per pixel",
-              .y_label = "relative squared error (relMSE)",
-              .series = {}};
-    plot.floor = results.references.value(scene, Json::object()).value("noise_relmse", 0.0);
-    for (const bench::CellSummary& cell : results.summary.cells) {
-        if (cell.cell.scene != scene) continue;
-        plot.series.push_back({.name = fmt::format("{}, {}", cell.cell.method, cell.cell.backend),
-                               .color = method_color(cell.cell.method),
-                               .style = style_of(results.plan, cell.cell.backend),
-                               .line = line_of(results.runs, cell, over_time),
-                               .band = band_of(over_time ? cell.over_time : cell.over_samples)});
-    }
-    return plot;
-}
-
-}  // namespace
-
-std::vector<std::string> scene_order(const Json& plan) {
-    std::vector<std::string> names;
-    for (const Json& scene : plan.at("scenes")) names.push_back(scene.at("name"));
-    return names;
-}
-
-std::vector<NamedPlot> convergence_plots(const bench::BenchResults& results) {
-    std::vector<NamedPlot> plots;
-    for (const std::string& scene : scene_order(results.plan)) {
-        plots.push_back({scene, scene + "-time", make_plot(results, scene, true)});
-        plots.push_back({scene, scene + "-samples", make_plot(results, scene, false)});
-    }
-    return plots;
-}
 
 }  // namespace pl

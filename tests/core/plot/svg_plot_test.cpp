@@ -1,28 +1,7 @@
-// Text as markup, and bytes as base64.
-// Plots of the report, drawn from known numbers.
-#include "app/report/plot.h"
+// Plots drawn from known numbers.
+#include "core/plot/svg_plot.h"
 
 #include "tests/support/catch.hpp"
-
-namespace pl {
-
-TEST_CASE("markup in names is text") {
-    CHECK(escape_markup("<a href='x'>\"&\"") == "&lt;a href=&#39;x&#39;&gt;&quot;&amp;&quot;");
-    CHECK(escape_markup("").empty());
-}
-
-TEST_CASE("base64 of the standard's examples") {
-    CHECK(base64("").empty());
-    CHECK(base64("f") == "Zg==");
-    CHECK(base64("fo") == "Zm8=");
-    CHECK(base64("foo") == "Zm9v");
-    CHECK(base64("foob") == "Zm9vYg==");
-    CHECK(base64("fooba") == "Zm9vYmE=");
-    CHECK(base64("foobar") == "Zm9vYmFy");
-    CHECK(base64(std::string("\xff\xfe\x00", 3)) == "//4A");
-}
-
-}  // namespace pl
 
 namespace pl::test {
 namespace {
@@ -30,12 +9,12 @@ namespace {
 Plot two_lines() {
     Plot plot{.title = "a <b> & \"c\"", .x_label = "seconds", .y_label = "relMSE", .series = {}};
     plot.series.push_back({.name = "default, cpu",
-                           .color = method_color("default"),
+                           .color = 0xff0072b2u,
                            .style = 0,
                            .line = {{1.0, 1.0, "first"}, {10.0, 0.1, "last"}},
                            .band = {{1.0, 0.9, 1.1}, {10.0, 0.09, 0.11}}});
     plot.series.push_back({.name = "default, cuda",
-                           .color = method_color("default"),
+                           .color = 0xff0072b2u,
                            .style = 1,
                            .line = {{0.1, 1.0, ""}, {1.0, 0.1, ""}},
                            .band = {}});
@@ -74,6 +53,18 @@ TEST_CASE("a plot of nothing is an empty frame") {
     const Plot plot{.title = "none", .x_label = "x", .y_label = "y", .series = {}};
     CHECK_THAT(svg_plot(plot), contains("none"));
     CHECK(svg_plot(plot).find("nan") == std::string::npos);
+}
+
+TEST_CASE("A plot of chosen ranges has their axes and clips its curves, and long names widen the file") {
+    Plot plot = two_lines();
+    plot.series[0].name = std::string(60, 'm');
+    plot.x_shown = LogAxis::exactly(1.0, 2.0);
+    const std::string svg = svg_plot(plot);
+    CHECK_THAT(svg, contains(">1.5<") || contains(">2<"));
+    CHECK(svg.find(">10<") == std::string::npos);
+    CHECK_THAT(svg, contains("<g clip-path=\"url(#frame)\">"));
+    const PlotLayout layout;
+    CHECK_THAT(svg, contains("width=\"" + std::to_string(layout.width - layout.right + 44 + 8 * 60) + "\""));
 }
 
 }  // namespace pl::test
