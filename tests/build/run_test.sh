@@ -92,6 +92,21 @@ start --no-install --with opengl
 expect_code 2
 expect "expected cuda, mpi or python, got 'opengl'" "$err"
 
+# A second start waits for the build of the first, and the program does not hold the lock.
+fresh
+mkdir -p "$work/root/build"
+flock "$work/root/build/.lock" sleep 2 &
+while flock -n "$work/root/build/.lock" true; do sleep 0.05; done
+start --no-install info
+expect_code 0
+expect 'Another ./run builds here: waiting for it' "$err"
+expect 'pathlight: info' "$out"
+wait
+printf '%s\n' '#!/bin/sh' "flock -n $work/root/build/.lock echo 'not held'" >"$work/root/build/release/pathlight"
+start --no-install info
+expect 'not held' "$out"
+refuse 'Another ./run' "$err"
+
 # The Python module is compiled apart from the program, for an environment that has what it takes.
 fresh
 start --no-install --with python info
