@@ -10,6 +10,8 @@ void bind_learner(nanobind::module_& module);
 void bind_field(nanobind::module_& module);
 /// After bind_scene() and bind_field(), whose types its signatures name.
 void bind_session(nanobind::module_& module);
+/// After bind_scene().
+void bind_tracer(nanobind::module_& module);
 void bind_program(nanobind::module_& module);
 
 }  // namespace pl

@@ -64,5 +64,6 @@ NB_MODULE(_pathlight, module) {
     pl::bind_learner(module);
     pl::bind_field(module);
     pl::bind_session(module);
+    pl::bind_tracer(module);
     pl::bind_program(module);
 }

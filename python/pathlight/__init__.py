@@ -12,6 +12,7 @@ from ._pathlight import (
     Error,
     Field,
     InputError,
+    PathTracer,
     Samples,
     Scene,
     Session,
@@ -24,11 +25,15 @@ from ._pathlight import (
     run,
     scenes,
 )
+from ._plots import plot_hemisphere
+
+Field.plot = plot_hemisphere
 
 __all__ = [
     "Error",
     "Field",
     "InputError",
+    "PathTracer",
     "Samples",
     "Scene",
     "Session",

@@ -64,3 +64,15 @@ def test_what_is_not_learned_has_no_field(door):
     session.render(spp=1)
     with pytest.raises(pathlight.UsageError):
         session.field()
+
+
+def test_the_plot_of_a_hemisphere_shows_every_cell_where_it_lies(door):
+    matplotlib = pytest.importorskip("matplotlib")
+    matplotlib.use("agg")
+    field = learned(door)
+    volume = int(field.visits.sum(axis=1).argmax())
+    disc = field.plot(volume, values="probabilities").images[0].get_array()
+    inside = disc.compressed() if np.ma.isMaskedArray(disc) else disc[np.isfinite(disc)]
+    assert set(inside) == set(field.probabilities[volume])
+    # Cells have equal areas on the disc; nearest middles are cells up to their borders.
+    assert inside.mean() == pytest.approx(field.probabilities[volume].mean(), rel=0.1)
