@@ -100,7 +100,7 @@ def gains(results):
 
 
 def mean_factor(factors):
-    return f" Geometric mean of {len(factors)}: {statistics.geometric_mean(factors):.3g}." if factors else ""
+    return f" Geometric mean over {len(factors)} scenes: {statistics.geometric_mean(factors):.3g}." if factors else ""
 
 
 def count_verdicts(cells, method):
