@@ -88,7 +88,7 @@ def about(benches):
              "[measuring.md](measuring.md#suites-and-protocols) says how to repeat them, and defines terms and intervals.", "",
              f"* Machine: {machine}, which other work kept busy. Gains at equal samples do not depend on other work, but\n  times, costs and gains to the same error do, so that most of these gains are undecided. Commit {', '.join(commits)}."]
     lines.append("* References are two halves by `pathlight reference --method reinforcement`, which has the least noise where light is hidden; tests "
-                 "hold\n  its means to those of `default`. Pictures are small and runs short: longer runs gain more by learning.\n"
+                 "hold\n  its means to the means of `default`. Pictures are small and runs short: longer runs gain more by learning.\n"
                  "* A path that finds the sun or a lamp by chance weighs a thousand times as much as others where lights are not sampled. Then relMSE is\n"
                  "  the error of a few pixels, and trimmed relMSE says more.")
     for b in benches:
