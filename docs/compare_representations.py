@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Prints the gains of the representations side by side, at equal memory, as a table for representations.md.
+"""Prints the gains of the representations side by side, at equal memory, as a table for the notebook.
 
 Usage: compare_representations.py PROGRAM BENCH [KEY=VALUE ...]
 PROGRAM: pathlight. BENCH: gain_bench. Keys and their values:

@@ -31,8 +31,8 @@ GOALS = [
 LEAST = 0.95
 # What figures of the tables come from.
 NOTES = [
-    "The Breakfast Room, light samples off: `default` mostly does not find the sun in 64 samples, and its trimmed error is the light that is "
-    "missing,\n  the same for every seed. `reinforcement` finds it now and then; each such path is a bright pixel, by which its error is larger.",
+    "The Breakfast Room, light samples off: in most pixels `default` does not find the sun within 64 samples. Its trimmed error is the "
+    "missing light,\n  which is the same for every seed. `reinforcement` finds the sun now and then; each such path is a bright pixel, so its error is larger.",
 ]
 
 
@@ -83,14 +83,14 @@ def about(benches):
     machine = "; ".join(f"{b['device']}, {b['threads']} threads" for b in backends.values())
     commits = sorted({c for b in benches for c in b.results["commits"]})
     lines = ["# Scenes of the literature", "",
-             "Gains of guiding on scenes that papers on path guiding use, with intervals, with and without light samples, published figures beside",
-             "them where settings agree. [make_literature.py](make_literature.py) makes this page of raw results in [literature](literature);",
-             "[measuring.md](measuring.md#suites-and-protocols) tells how to repeat them. Terms and intervals are those of [measuring.md](measuring.md).", "",
-             f"* Machine: {machine}, which other work kept busy: gains at equal samples do not depend on that, but\n  times, costs and gains to the same error do, so that most of these are undecided. Commit {', '.join(commits)}."]
+             "This page has the gains of guiding on scenes that papers on path guiding use, with intervals, with and without light samples.",
+             "Published figures stand beside them where settings agree. [make_literature.py](make_literature.py) makes this page of raw results in [literature](literature);",
+             "[measuring.md](measuring.md#suites-and-protocols) says how to repeat them, and defines terms and intervals.", "",
+             f"* Machine: {machine}, which other work kept busy. Gains at equal samples do not depend on other work, but\n  times, costs and gains to the same error do, so that most of these gains are undecided. Commit {', '.join(commits)}."]
     lines.append("* References are two halves by `pathlight reference --method reinforcement`, which has the least noise where light is hidden; tests "
-                 "hold\n  its means to those of `default`. Pictures are small and runs short: learning gains more in longer ones.\n"
-                 "* A path that finds the sun or a lamp by chance weighs a thousand times as much as others where lights are not sampled: relMSE is then that of\n"
-                 "  a few pixels, and the trimmed one tells more.")
+                 "hold\n  its means to the means of `default`. Pictures are small and runs short: longer runs gain more by learning.\n"
+                 "* A path that finds the sun or a lamp by chance weighs a thousand times as much as others where lights are not sampled. Then relMSE is\n"
+                 "  the error of a few pixels, and trimmed relMSE says more.")
     for b in benches:
         sizes = ", ".join(sorted({s["size"] for s in b.settings.values()}))
         first_settings = next(iter(b.settings.values()))
@@ -110,7 +110,7 @@ def losses(benches):
         if net[0] is not None and net[0] >= 1.0 and net[1] is not None and net[1] > 1.0:
             continue
         rows.append(f"* {TITLES.get(c['scene'], c['scene'])}, light samples {light_samples(settings)}, `{c['method']}`: {verdict(c)}; "
-                    f"{interval(c['samples'])} times fewer samples, {cost(c)} as dear.")
+                    f"{interval(c['samples'])} times fewer samples, {cost(c)} as long.")
     if len(rows) == 1:
         rows.append("Every method gains on every scene measured here.")
     return "\n".join(rows) + "\n\n"
@@ -181,10 +181,10 @@ def tables(benches):
         if not rows:
             continue
         text += "\n".join([f"## Light samples {light}\n",
-                           "| scene | method | samples per pixel | relMSE | trimmed | FLIP | fewer samples | dearer | to the same error | trimmed |",
+                           "| scene | method | samples per pixel | relMSE | trimmed | FLIP | fewer samples | time per sample | to the same error | trimmed |",
                            "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |", *rows]) + "\n\n"
-    return text + ("Fewer samples, dearer samples and less time to the same error are over `default`; *trimmed* is without the worst 0.1 % of the "
-                   "pixels,\nthe last column the same ratio of times by that error, without an interval.\n\n" + "".join(f"* {n}\n" for n in NOTES) + "\n")
+    return text + ("Factors of samples, of time per sample and of time to the same error are over `default`. *Trimmed* is without the worst 0.1 % of the "
+                   "pixels.\nThe last column has the factor of time by the trimmed error, without an interval.\n\n" + "".join(f"* {n}\n" for n in NOTES) + "\n")
 
 
 def scene_rows(bench, scene):

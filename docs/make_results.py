@@ -38,8 +38,8 @@ def head(definitions):
 This page has error against time of every method on every shipped scene. Each run starts with nothing learned, and placing, precomputing and
 learning are charged. [make_results.py](make_results.py) makes the page of the [raw results](results) of benches.
 
-* The tables *to the same error* say how many times less time than the first method another method needs to equal error; below 1 it needs
-  more time.
+* The tables *to the same error* have the time that the first method needs over the time that another method needs, to equal error. Below 1
+  the other method needs more time.
 * relMSE is {definitions['metrics']['relmse']} with epsilon {definitions['metrics']['epsilon']},
   taken against a reference in two halves, so that the reference's own noise drops out. Intervals: {definitions['intervals']}.
 * Pictures are small and runs short, so that a bench fits into minutes; the cost of an update of the tables does not depend on the size, and
@@ -100,7 +100,7 @@ def gains(results):
 
 
 def mean_factor(factors):
-    return f" Geometric mean of {len(factors)}: {statistics.geometric_mean(factors):.3g}." if factors else ""
+    return f" Geometric mean over {len(factors)} scenes: {statistics.geometric_mean(factors):.3g}." if factors else ""
 
 
 def count_verdicts(cells, method):

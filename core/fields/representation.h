@@ -44,7 +44,7 @@ concept FieldInspector = requires(const Inspector& inspector, std::uint32_t volu
 
 /// A representation. Its members are static:
 ///   kInfo                            ChoiceInfo: its number in files, and what users read of it
-///   kGuidance                        time that guiding takes at a vertex, over that by a table: docs/representations.md
+///   kGuidance                        time that guiding takes at a vertex, relative to a table
 ///   kArrays                          SpecList of all arrays, in the order of files
 ///   Field                            kernel model, a GuidingField
 ///   Storage<Array>                   its arrays in memory of one kind

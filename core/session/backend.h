@@ -37,7 +37,7 @@ struct BackendInfo {
     int threads = 0;          ///< of the host; 0: it runs on a device
     int ranks = 1;            ///< processes that share its work
 
-    /// Threads for work between passes: those of the back end, which waits; all if it takes none of the host.
+    /// Threads for work between passes: the threads of the back end, which waits; all if the back end uses no threads of the host.
     int free_threads() const;
 };
 
@@ -45,8 +45,8 @@ struct BackendInfo {
 std::string device_text(const BackendInfo& info);
 
 /// Stop flag: a running pass starts no further paths. Paths under way are finished: dropping them would drop long
-/// ones more often, a bias. Paths start in ascending order, so the finished ones are a prefix of PassCounters::paths
-/// paths, and the pass can be resumed behind it without changing a bit of the result.
+/// paths more often, a bias. Paths start in ascending order, so the finished paths are the first PassCounters::paths of the pass,
+/// which can be resumed there without changing a bit of the result.
 using StopFlag = std::atomic<bool>;
 
 /// End of a range without bound.
@@ -92,7 +92,7 @@ struct PrecomputeRequest {
     const StopFlag* stop = nullptr;
 };
 
-/// A film as two disjoint halves of its samples: those of passes of even and of odd number.
+/// A film as two disjoint halves of its samples: of even and of odd passes.
 struct FilmHalves {
     std::array<std::vector<Vec3f>, 2> mean;  ///< [row][column]; NaN where a half has no valid sample
     std::array<std::uint64_t, 2> weights{};  ///< of valid samples

@@ -1,5 +1,5 @@
-// What users read of the choices in the settings of a rendering; those of its field have field_choices.h. Apart from the
-// enumerations, which kernels include.
+// Texts for users of the choices in the settings of a rendering; field_choices.h has the choices of the field. They are apart from
+// the enumerations, which kernels include.
 #pragma once
 
 #include "core/fields/field_choices.h"

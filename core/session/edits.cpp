@@ -46,7 +46,7 @@ struct Table {
     Invalidation operator()(const EditForget&) const { return {.films = true, .tables = true}; }
     Invalidation operator()(const EditLearning&) const { return {}; }
     Invalidation operator()(const EditForgetVolume&) const { return {}; }
-    // Replaces tables and volumes itself: clearing them here would clear the new ones.
+    // Replaces tables and volumes itself: clearing here would clear the new tables and volumes.
     Invalidation operator()(const EditLearned&) const { return {.films = true}; }
 };
 

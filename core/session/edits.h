@@ -36,7 +36,7 @@ struct EditField {
 struct EditScene {
     std::shared_ptr<const SceneDescription> scene;
 };
-/// Replaces one material as a whole. The hierarchy stays. Clears the placement, too, if volumes would move: see
+/// Replaces one material as a whole. The hierarchy stays. Also clears the placement if volumes would move: see
 /// same_placement().
 struct EditMaterial {
     std::uint32_t index;

@@ -56,7 +56,7 @@ void FilmRenderer::ensure(FilmSlot slot) {
     film.is_allocated = true;
 }
 
-/// Decides about a pass that begins, and does nothing for one under way. Returns what is to be told in place of the pass, if anything.
+/// Decides about a pass that begins, and does nothing for a pass under way. Returns the progress to report in place of a pass, if any.
 std::optional<Progress> FilmRenderer::begin_pass(FilmSlot slot, const StopFlag* stop) {
     ensure(slot);
     FilmProgress& film = films_[slot];

@@ -93,16 +93,17 @@ bool GuidedPasses::run_trial(FilmProgress& film, Trial trial, const PassRequest&
     return is_complete;
 }
 
-/// Whether the paths of a trial train the field: guided ones, and those of the baseline in the first rounds of a warm-up, by the kernel of
-/// the method that learns, which doubles their time. They meet light that the field does not know as often as light that it knows.
+/// Whether the paths of a trial train the field: guided paths do, and paths of the baseline in the first rounds of a warm-up, by the kernel
+/// of the method that learns, which doubles their time. Paths of the baseline find light that the field has not learned as often as light
+/// that it has.
 bool GuidedPasses::trains_by(const FilmProgress& film, MethodId method, Trial trial) const {
     const bool is_first = film.guiding.is_warming_up() && !film.guiding.is_round_measured();
     const bool is_training = trial == Trial::Guided || is_first;
     return is_training && info_of(method).learns && !fields_.is_frozen(method);
 }
 
-/// Paths of the warm-up come to the film, because later ones are measured against it, but for those of the baseline that are measured;
-/// all others leave it as it is.
+/// Paths of the warm-up are added to the film, because later paths are measured against it. Measured paths of the baseline, and all other
+/// trials, leave the film as it is.
 PassRequest GuidedPasses::trial_request(const FilmProgress& film, Trial trial, PassRequest request) const {
     const FilmSlot slot = request.slot;
     const bool is_guided = trial == Trial::Guided;

@@ -11,8 +11,8 @@ constexpr double kPrice = 0.6;
 /// a warm-up guided paths had at most 1.27 times less variance on the shipped scenes where guiding does not pay, and at least 1.37 times
 /// less on the others (256 x 256, six seeds of ten scenes, docs/notebook/2026-11-29-one-ratio.md): a seed may cross it on `still-life`.
 constexpr double kLeastGain = 0.8;
-/// Guiding pays, whatever the variances, where guided paths bring light so many times as often as those of the baseline, whose variance is
-/// then that of the light it has found. It is 12 on labyrinth, 17 on staircase and 4.5 on Veach Ajar, and at most 1.9 in five other rooms of
+/// Guiding pays, whatever the variances, where guided paths bring light so many times as often as paths of the baseline: the variance of
+/// the baseline is then only the variance of the light that it has found. The ratio is 12 on labyrinth, 17 on staircase and 4.5 on Veach Ajar, and at most 1.9 in five other rooms of
 /// the literature.
 constexpr double kRatioOfHiddenLight = 2.0;
 

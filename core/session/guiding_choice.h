@@ -22,7 +22,7 @@ public:
 
     bool is_measured() const { return samples_ > 0.0; }
     double variance() const { return variance_ / samples_; }  ///< relative, of a path's sample; NaN before the first
-    double lit_share() const { return lit_ / paths_; }        ///< of the paths, those that bring light; likewise
+    double lit_share() const { return lit_ / paths_; }        ///< of paths that bring light; NaN before the first
 
     /// As GuidingChoice::each_value().
     template <class Noise, class Fn>
@@ -35,7 +35,7 @@ public:
 
 private:
     double variance_ = 0.0;
-    double samples_ = 0.0;  ///< measured ones
+    double samples_ = 0.0;  ///< measured
     double lit_ = 0.0;
     double paths_ = 0.0;
 };
@@ -51,13 +51,13 @@ public:
     static constexpr std::uint32_t kMeasured = 4;  ///< passes, or rounds of a warm-up
     /// The pass that is decided about; of a warm-up, its number of rounds.
     static constexpr std::uint32_t kDecision = 8;
-    /// Likewise in a film whose warm-up gave guiding up: trials of guided paths would take the time of passes that a short film lacks.
+    /// The same for a film whose warm-up gave guiding up: earlier, trials of guided paths would take the time of passes that a short film lacks.
     static constexpr std::uint32_t kLateDecision = 64;
 
     bool is_measured(std::uint32_t pass) const { return pass + kMeasured >= decision_ && pass < decision_; }
     /// Whether trials or a decision may be due before this pass.
     bool is_due_before(std::uint32_t pass) const { return pass == 0 || is_measured(pass) || pass == decision_; }
-    /// The least ratio of variances at which guiding pays. `guidance`: the time of guidance at a vertex, over that by a table.
+    /// The least ratio of variances at which guiding pays. `guidance`: the time of guidance at a vertex, relative to a table.
     static double least_ratio(double guidance);
 
     /// Whether trials of a warm-up are due before the first pass: for a field that is unknown.
@@ -68,7 +68,7 @@ public:
     std::uint32_t warm_up_round() const;
     bool is_round_measured() const { return warm_up_round() + kMeasured >= kDecision; }
     void measure_warm_up(const PassCounters& counters, double least_ratio);
-    /// Whether guided paths of the warm-up brought light far more often than those of the baseline: rare bright paths are then most of
+    /// Whether guided paths of the warm-up brought light far more often than paths of the baseline: rare bright paths are then most of
     /// the variance of the first guided passes.
     bool found_hidden_light() const { return found_hidden_light_; }
 
@@ -98,12 +98,12 @@ public:
         fn(choice.found_hidden_light_);
     }
 
-    /// Relative variance of a path of the baseline over that of a guided path. Empty before the first decision of this film.
+    /// Relative variance of a path of the baseline, over the relative variance of a guided path. Empty before the first decision of this film.
     std::optional<double> variance_ratio() const { return ratio_; }
 
 private:
     void decide(double least_ratio);
-    /// Whether guided paths bring light far more often, so that the baseline's variance is only that of the light it has found.
+    /// Whether guided paths bring light far more often, so that the baseline's variance is only the variance of the light that it has found.
     bool finds_hidden_light() const;
 
     PathNoise guided_;

@@ -15,7 +15,7 @@ namespace pl {
 struct FieldProgress {
     std::uint64_t passes = 0;  ///< of the method, unguided ones included: each has random numbers of its own
     std::uint64_t untrained_passes =
-        0;  ///< of these, since the field was made or loaded: unguided ones, and those without training samples
+        0;  ///< passes since the field was made or loaded that were not guided or made no training samples
     std::uint64_t updates = 0;          ///< changes of the tables by which later paths are sampled
     std::uint64_t records = 0;          ///< training samples
     std::uint64_t clamped_records = 0;  ///< of them

@@ -16,7 +16,7 @@ struct PassRun {
     std::uint32_t first_pass = 0;    ///< within the picture
     std::uint32_t first_sample = 0;  ///< number of that pass for its random numbers
     VertexSequences sequences{};
-    bool is_guided = true;  ///< of methods without a field, too
+    bool is_guided = true;  ///< also for methods without a field
     bool trains = false;    ///< the passes train the field
 
     bool is_like(const PassRun& other) const { return is_guided == other.is_guided && trains == other.trains; }
@@ -62,7 +62,7 @@ struct PassReplay {
         const auto next = std::ranges::upper_bound(runs, pass, {}, &PassRun::first_pass);
         return *(next == runs.begin() ? next : next - 1);
     }
-    /// Whether that pass is guided; of methods without a field, too.
+    /// Whether that pass is guided; true also for methods without a field.
     bool is_guided(std::uint32_t pass) const { return run_of(pass).is_guided; }
 
     std::shared_ptr<const HostVolumes> volumes{};  ///< null for methods without a field, for which the rest is unset

@@ -12,8 +12,8 @@ constexpr float kGuidedRouletteThreshold = 0.2f;
 /// (docs/notebook/2026-11-23-guiding-choice.md).
 constexpr float kLightSampledRouletteThreshold = 0.35f;
 
-/// Passes until those of a learning method have their full weight, without and with light samples. The first ones have many times
-/// the variance of later ones, with light samples fewer times; longer ramps waste more of the later ones
+/// Number of the pass from which on passes of a learning method have their full weight, without and with light samples. First passes
+/// have many times the variance of later passes, with light samples fewer times; longer ramps waste more of the later passes
 /// (docs/notebook/2026-11-23-first-passes.md).
 constexpr std::uint32_t kWeightRamp = 8;
 constexpr std::uint32_t kLightSampledWeightRamp = 4;

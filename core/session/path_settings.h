@@ -1,4 +1,4 @@
-// The path settings of kernels from those of the user, with the threshold of roulette of each method.
+// Makes the path settings of kernels from the user's settings, with the threshold of roulette of each method.
 #pragma once
 
 #include "core/kernel/film/pass_weights.h"

@@ -9,7 +9,7 @@
 namespace pl {
 
 /// Number of volumes to add right after an update, when no training sample is pending; empty if no round of
-/// refinement is due, 0 if one is due that adds none. `volumes` is their present number, `progress` that of the
+/// refinement is due, 0 if one is due that adds none. `volumes`: their present number. `progress`: of the
 /// learning method. Passes are counted by the field's progress, so that a field saved in between is refined at the
 /// same moment. `light_clusters`: of the scene's light tree, for the memory of a volume.
 std::optional<std::size_t> volumes_to_add(const FieldSettings& settings, std::size_t volumes,

@@ -44,8 +44,8 @@ public:
         return films_->advance_to_path(slot, pixel, stop);
     }
 
-    /// The learner of all later updates of methods that learn, of one process; an empty one: the table's own. Its time is that of
-    /// updates. Throws Error(Usage) if the field is not represented by tables.
+    /// The learner of all later updates of methods that learn, in one process; empty: the table's own update. Its time counts as
+    /// time of updates. Throws Error(Usage) if the field is not represented by tables.
     void set_learner(FieldLearner learner) { fields_->set_learner(std::move(learner)); }
 
     /// Copy of a film and all statistics.
@@ -82,7 +82,7 @@ public:
     /// First surface under a point of the film, in pixels of the present size; empty where rays hit nothing.
     std::optional<PickedPoint> pick(Vec2f film);
 
-    /// As given and edited; `method` and `view` are those of the constructor.
+    /// As given and edited; `method` and `view` are as given to the constructor.
     const RenderSettings& settings() const { return inputs_->settings; }
     /// The settings of one film.
     RenderSettings settings_for(FilmSlot slot) const { return inputs_->settings_for(slot); }

@@ -1,5 +1,5 @@
 // The learned fields of a session, one for each method that has one: placement, training, freezing, precomputation and refinement.
-// They stay as they are while films are cleared, and know nothing of these but the passes that train them.
+// Fields stay as they are while films are cleared; of films they only know the passes that train them.
 #pragma once
 
 #include <array>

@@ -16,14 +16,14 @@ namespace pl {
 struct FilmProgress {
     FilmOrigin origin{};
     bool is_allocated = false;
-    std::uint32_t passes = 0;      ///< complete ones
+    std::uint32_t passes = 0;      ///< complete
     std::uint32_t next_pixel = 0;  ///< number of pixels that the running pass has rendered
     PassCounters counters{};
     double render_seconds = 0.0;
     double learn_seconds = 0.0;
 
     GuidingChoice guiding{};
-    bool is_guided = true;    ///< the pass under way, or the last one; of methods without a field, too
+    bool is_guided = true;    ///< the pass under way, or the last one; also for methods without a field
     bool trains = true;       ///< the pass under way, or the last one, trains the field if its method learns
     PassCounters measured{};  ///< since guiding was last chosen
     std::uint32_t unguided_passes = 0;
@@ -43,7 +43,7 @@ struct ParkedBackend {
     std::shared_ptr<const HostScene> scene;
 };
 
-/// The films of the back end in use, and those of parked back ends.
+/// The films of the back end in use, and of parked back ends.
 class SessionFilms {
 public:
     FilmProgress& operator[](FilmSlot slot) { return films_[static_cast<std::size_t>(slot.index())]; }
@@ -52,9 +52,9 @@ public:
     /// Gives a film its origin before the first work on it, precomputation included. `before`: state at that moment,
     /// whether the field is warm, and seconds on the clocks.
     void begin(FilmSlot slot, const FilmOrigin& before);
-    /// Clears all films, including those of parked back ends. The beliefs about guiding by their methods are kept.
+    /// Clears all films, of parked back ends as well. What was measured about guiding is kept.
     void clear();
-    /// Forgets it, because fields are replaced or cleared.
+    /// Forgets whether guiding pays, because fields are replaced or cleared.
     void forget_guiding();
     /// Clears the films of one view, of all methods.
     void clear(View view);
@@ -64,7 +64,7 @@ public:
 
     /// Keeps the films of this back end for its return.
     void park(std::shared_ptr<RenderBackend> backend, std::shared_ptr<const HostScene> scene);
-    /// Removes a back end from the parked ones; without films and scene if it is not parked.
+    /// Takes out a parked back end; without films and scene if it is not parked.
     ParkedBackend unpark(const std::shared_ptr<RenderBackend>& backend);
     /// Continues with the films of an unparked back end.
     void resume(const ParkedBackend& backend) { films_ = backend.films; }

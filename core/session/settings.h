@@ -18,7 +18,7 @@
 
 namespace pl {
 
-/// RenderSettings::learn_passes without an end of learning.
+/// Value of RenderSettings::learn_passes: learning has no end.
 inline constexpr std::uint64_t kEveryPass = std::numeric_limits<std::uint64_t>::max();
 
 /// RenderSettings::roulette of paths that end by their depth alone. No rule of kernels: path_settings() puts the
@@ -41,7 +41,7 @@ struct RenderSettings {
     MixtureSettings mixture{};
     FieldSettings field{};
     std::uint64_t learn_passes = kEveryPass;  ///< that train the field of a method that learns; then it is frozen
-    FeatureSet forced_effects{};  ///< effects that kernels cover besides the needed ones; no picture changes by it
+    FeatureSet forced_effects{};  ///< effects that kernels cover besides the needed ones; no picture changes
 };
 
 /// Display only: no film or field depends on it.

@@ -36,7 +36,7 @@ struct FilmOrigin {
 /// Size and progress of a method's learned field.
 struct FieldStatus {
     int volumes = 0;
-    int added_volumes = 0;  ///< of these, by refining
+    int added_volumes = 0;  ///< of the volumes, by refinement
     int bins = 0;
     Representation representation = Representation::Table;
     std::size_t bytes = 0;
@@ -50,7 +50,7 @@ struct FieldStatus {
     bool was_edited = false;         ///< FieldProgress::was_edited
 };
 
-/// The choice between guided passes and those of the baseline method, see GuidingChoice.
+/// The choice between guided passes and passes of the baseline method, see GuidingChoice.
 struct GuidingStatus {
     bool pays = true;                      ///< the next passes are guided, as far as is known
     std::optional<double> variance_ratio;  ///< GuidingChoice::variance_ratio()

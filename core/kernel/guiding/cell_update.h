@@ -8,15 +8,15 @@
 namespace pl {
 
 /// The learning rate. With N training samples in a cell and m new ones the learned radiance moves towards the mean of
-/// the new ones by a step that depends on s = m/(N+m). Files store these numbers, and 2 and 3 name no rate.
+/// the new samples by a step that depends on s = m/(N+m). Files store these numbers, and 2 and 3 name no rate.
 enum class LearningRate : std::uint32_t {
     SampleMean = 1,  ///< s, the rate 1/(1+visits) of Dahm and Keller 2017: the mean of all targets
     /// 1 - (1-s)^4: forgets early targets, which bootstrap from poor tables, and still averages the noise of later ones
     Forgetful = 4,
 };
 
-/// Uniform share of a table's probabilities: every cell has a positive one, which bounds the weight of light that no
-/// training sample has found.
+/// Uniform share of a table's probabilities: every cell keeps a positive probability, which bounds the weight of light
+/// that no training sample has found.
 inline constexpr float kUniformShare = 0.1f;
 
 /// Step of a cell with `visits` training samples and `fresh` new ones. A function of m/(N+m) without a difference from 1, which

@@ -38,8 +38,8 @@ PL_HD void absorb_light_clusters(const View& field, std::uint32_t volume, std::u
     if (field.direct_count[volume] >= kFewestLightSamples) build_light_choice(field, volume);
 }
 
-/// Moves a volume's irradiance by light samples towards the mean of the new ones, at the rate of the cells: their MIS weights
-/// follow the tables.
+/// Moves a volume's irradiance by light samples towards the mean of new light samples, at the rate of the cells, because their MIS
+/// weights follow the tables.
 template <class View>
 PL_HD void absorb_light_samples(const View& field, std::uint32_t volume) {
     const std::uint32_t fresh = field.pending_direct_count[volume];

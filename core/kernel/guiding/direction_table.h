@@ -32,7 +32,7 @@ struct DirectionTables {
     const float* column_cdf;
     Int volume;
 
-    /// Probability of a cell, exactly that of sample_cell(): differences of the same stored values.
+    /// Probability of a cell, with the bits by which sample_cell() chooses it: differences of the same stored values.
     PL_INLINE Real cell_probability(Int column, Int row) const {
         return share_of(row_cdf, volume * cells.side, row) * share_of(column_cdf, first_of_row(row), column);
     }
@@ -49,8 +49,8 @@ struct DirectionTables {
     /// Index of the first cumulative probability of a row.
     PL_INLINE Int first_of_row(Int row) const { return (volume * cells.side + row) * cells.side; }
 
-    /// Where a number lies between the cumulative probabilities that enclose it, those of a row or a column: again uniform in
-    /// [0, 1], with log2 of their difference fewer bits. One number so serves twice, and evenly spread numbers stay so.
+    /// Where a number lies between the cumulative probabilities of a row, or a column, that enclose it: again uniform in [0, 1], with
+    /// log2 of their difference fewer bits. So one number serves twice, and low-discrepancy samples stay well distributed.
     PL_INLINE Real position_in_row(Int row, Real u) const {
         return position_in(row_cdf, volume * cells.side, row, u);
     }

@@ -16,7 +16,7 @@ struct ConstSpan : Span<const T> {
 };
 
 // The arrays of representations are templates over two kinds of memory. `Learned` arrays change in updates only and are constant while
-// paths are traced; `Pending` ones are sums that paths add to between two updates. So one description serves host memory, device
+// paths are traced; `Pending` arrays are sums that paths add to between two updates. So one description serves host memory, device
 // memory, files, and kernels that trace paths, <ConstSpan, Span>, or update a field, <Span, Span>.
 
 /// The learned BSDF fraction, see mixture.h: one for each [volume], or for each [leaf] of an SD-tree.
@@ -26,7 +26,7 @@ struct MixtureSums {
     Pending<std::int64_t> pending_curvature;
     Learned<float> mixture_target;  ///< sum of curvature times aim of the Newton steps so far
     Learned<float> mixture_weight;  ///< sum of their curvature
-    Learned<float> bsdf_fraction;   ///< learned share of the BSDF in the mixture
+    Learned<float> bsdf_fraction;   ///< learned, the a of the mixture
 };
 
 /// The light of light samples, see direct_light.h: of radiance volumes, and of the clusters of the scene's light tree.
@@ -55,7 +55,7 @@ struct VolumeIrradiance {
 
 /// Besides its arrays, what a kernel that traces paths knows of a field with one hemisphere per radiance volume.
 struct FieldView : PlacementView {
-    DirectionCells cells;  ///< of the hemispheres: those of tables; for other fields, those that are shown
+    DirectionCells cells;              ///< of the hemispheres; fields without tables are shown by them
     std::uint32_t light_clusters = 0;  ///< of the scene's light tree; 0: no tree
     float radiance_unit = 1.0f;        ///< of the fixed-point sums: a power of two not below the brightest emission
     Writers writers = Writers::Many;   ///< threads that add to the pending sums

@@ -1,5 +1,5 @@
 // A guiding field: a representation of incident radiance over all surfaces from which directions are sampled. Tables of cells
-// are the first model (table_field.h); trees, lobes and networks are further ones. Kernels are templates over the model.
+// are the first model (table_field.h); trees, lobes and networks are further models. Kernels are templates over the model.
 #pragma once
 
 #include <concepts>
@@ -44,7 +44,7 @@ struct LightSample {
 ///   direct_at(l)               the same by light samples alone, with their MIS weights; 0 before the first one
 ///   lights_at(l)               learned choice among the clusters of the scene's light tree; empty: nothing is learned
 ///   entry_of(l, direction)     the entry that a sampled direction trains
-///   record(sample, fraction)   adds a training sample to the pending sums; `fraction`: also to those of the BSDF fraction
+///   record(sample, fraction)   adds a training sample to the pending sums; `fraction`: also to the sums of the BSDF fraction
 ///   add(sample, fraction)      adds radiance to the target of a training sample that was recorded before
 ///   record_light(light)        adds a light sample
 ///   is_clamped(target)         whether the sums will hold less than this target

@@ -116,7 +116,7 @@ private:
         if (!(length > kNearest)) return {entry.wi, inverse};
         return {towards / length, min_of(inverse / length, kMostInverseDistance)};
     }
-    /// The E step: adds the moments of a sample to each lobe by its share of the mixture's density there.
+    /// The E step: adds the moments of a sample to each lobe, weighted by the lobe's responsibility.
     PL_HD void record_lobes(std::uint32_t volume, const Entry& entry, float target, float distance) const {
         const SiteLight light = light_at_site(entry, distance);
         float part[kMostLobes];

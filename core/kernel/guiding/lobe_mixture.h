@@ -61,7 +61,7 @@ struct LobeMixtureOf {
     LobesOf<kCapacity, kLeast> lobes;  ///< their weights are their probabilities
     float peak[kCapacity];             ///< probability times the lobe's density at its mean
 
-    /// Sets the product of a lobe and the cosine. Those of whole blocks are to be set, see LobesOf::count().
+    /// Sets the product of a lobe and the cosine. The lobes of whole blocks have to be set, see LobesOf::count().
     PL_INLINE void set(std::uint32_t i, const VmfLobe& lobe, float lobe_weight, Vec3f normal) {
         const VmfProduct product = vmf_product(lobe, {normal, kCosineKappa});
         peak[i] = lobe_weight * vmf_peak(lobe.kappa) * product.scale;

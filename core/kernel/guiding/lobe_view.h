@@ -7,20 +7,20 @@
 
 namespace pl {
 
-/// Most lobes of a mixture, and those of a fresh one. Half of the 32 and 16 of Ruppert et al. 2020: a volume serves the surface
-/// points of one normal, whose hemisphere takes half the lobes of a sphere.
+/// Number of lobes of a mixture at most, and at first. Ruppert et al. 2020 have 32 and 16 lobes over the sphere; a volume serves the
+/// hemisphere of one normal, which takes half as many.
 inline constexpr std::uint32_t kMostLobes = 16;
 inline constexpr std::uint32_t kFirstLobes = 8;
 
 /// Statistics of a lobe: means over training samples of responsibility times a quantity, the first of them times the weight
-/// w = target / density. Directions are those at the volume's site, in the frame of its normal.
+/// w = target / density. Directions are seen from the volume's site, in the frame of its normal.
 enum LobeMoment : std::uint32_t {
     kMomentWeight,  ///< w: radiance times steradians
     kMomentX,       ///< w times direction
     kMomentY,
     kMomentZ,
     kMomentInverse,  ///< w / distance from the site, in units of 1 / extent
-    kMomentXx,       ///< w times products of the direction's components; that of z z follows from the weight
+    kMomentXx,       ///< w times products of the direction's components; z z follows from the weight
     kMomentXy,
     kMomentXz,
     kMomentYy,
@@ -36,7 +36,7 @@ struct LobeArrays : MixtureSums<Learned, Pending>,
                     VolumeIrradiance<Learned, Pending>,
                     LightSampleSums<Learned, Pending> {
     Learned<std::uint32_t> lobe_count;  ///< of the volume, 1 to kMostLobes. [volume]
-    Learned<float> weight;              ///< share of the lobe in its mixture; 0 of those not in use. [lobe]
+    Learned<float> weight;              ///< share of the lobe in its mixture; 0: not in use. [lobe]
     Learned<float> mean;                ///< unit direction in the frame of the volume's normal. [lobe][3]
     Learned<float> kappa;               ///< concentration. [lobe]
     Learned<float> inverse_distance;    ///< from the site to the lobe's light, in units of 1 / extent. [lobe]

@@ -11,7 +11,7 @@ namespace pl {
 /// Bounds of the learned fraction: q never loses either of its parts.
 inline constexpr float kMinBsdfFraction = 0.1f;
 inline constexpr float kMaxBsdfFraction = 0.9f;
-/// Fraction of a volume without training samples. For any table the second moment of a path's throughput grows by at most
+/// BSDF fraction of a volume without training samples. For any table the second moment of a path's throughput grows by at most
 /// albedo^2 / a per vertex: with this fraction it stays finite for albedos below 0.7.
 inline constexpr float kInitialBsdfFraction = 0.5f;
 
@@ -58,7 +58,7 @@ PL_HD void record_mixture(const Field& field, std::uint32_t index, float bsdf_ra
 /// are based on worse tables.
 PL_HD inline void move_mixture(const MixtureSums<Span, Span>& field, std::uint32_t volume) {
     constexpr float kKept = 0.9f;             // weight of the older steps, per update with training samples
-    constexpr float kPriorCurvature = 32.0f;  // weight of the initial fraction: that of about thirty training samples
+    constexpr float kPriorCurvature = 32.0f;  // weight of the initial fraction, about thirty training samples
     const float old = field.bsdf_fraction[volume];
     const float table_share = 1.0f - old;
     const float slope = static_cast<float>(field.pending_slope[volume]) / (kMixtureStepsPerUnit * table_share);

@@ -29,7 +29,7 @@ static_assert(kConstantInput < kInputs);
 
 inline constexpr std::uint32_t kVertexLobes = 8;
 
-/// Outputs, [parameter][lobe]: by them lobes differ from those of an untrained network, see vertex_lobe().
+/// Outputs, [parameter][lobe]: offsets from the lobes of an untrained network, see vertex_lobe().
 enum VertexParameter : std::uint32_t {
     kLobeLogit,  ///< logarithm of its weight
     kLobeX,      ///< of the vector whose direction is its mean
@@ -40,8 +40,7 @@ enum VertexParameter : std::uint32_t {
 };
 inline constexpr std::uint32_t kVertexOutputs = kVertexParameters * kVertexLobes;
 
-/// Units of each of the two hidden layers, and those that are added to the rows of any hidden layer: a constant 1 for the bias, and
-/// zeros.
+/// Units of each of the two hidden layers, and further units in the rows of any hidden layer: a constant 1 for the bias, and zeros.
 inline constexpr std::uint32_t kHiddenUnits = 64;
 inline constexpr std::uint32_t kBiasUnits = 4;
 inline constexpr std::uint32_t kHiddenRow = kHiddenUnits + kBiasUnits;
@@ -58,7 +57,7 @@ enum NetworkCount : std::uint32_t {
 /// Columns of matrices are multiples of this.
 inline constexpr std::uint32_t kColumnBlock = 32;
 static_assert(kHiddenUnits % kColumnBlock == 0);
-/// Columns of the last layer: the outputs, and unused ones up to a whole block.
+/// Columns of the last layer: the outputs, and padding up to a whole block.
 inline constexpr std::uint32_t kOutputColumns = (kVertexOutputs + kColumnBlock - 1) / kColumnBlock * kColumnBlock;
 
 /// Places of the weights: grids [level][z][y][x][feature], then the layers, [input][unit].

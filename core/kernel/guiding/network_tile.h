@@ -24,7 +24,7 @@ public:
     PL_HD NetworkTile(float* memory, std::uint32_t lane)
         : memory_(memory), unit_(lane % kUnitLanes), vertex_(lane / kUnitLanes * kLaneVertices) {}
 
-    /// inputs: [kConstantInput]. The lanes may set those of different vertices at the same time; without any, its outputs mean nothing.
+    /// inputs: [kConstantInput]. Lanes may set the inputs of different vertices at the same time. Without inputs the outputs mean nothing.
     PL_HD void set_inputs(std::uint32_t vertex, const float* inputs) const {
         for (std::uint32_t i = 0; i < kConstantInput; ++i) memory_[i * kRow + vertex] = inputs[i];
     }
@@ -49,7 +49,7 @@ private:
         float of[kLaneUnits][kLaneVertices] = {};
     };
 
-    /// Replaces the inputs of a layer by the units behind it. weights: [inputs + 1][columns], the last ones of the constant 1.
+    /// Replaces the inputs of a layer by its units. weights: [inputs + 1][columns], the last row for the constant 1.
     template <std::uint32_t kUnits, bool kIsHidden, class Wait>
     PL_HD_INLINED void compute_layer(std::uint32_t inputs, const float* weights, std::uint32_t columns,
                                      Wait&& wait) const {

@@ -63,8 +63,8 @@ struct SdTreeField : SdTreeView {
         return energy[slot.slot] * (kUniformSpherePdf / (slot.side() * slot.side()));
     }
 
-    /// The leaf is that of a random point of the box of its leaf's size around the point, the slot that of a random direction of the
-    /// box of its slot's size around the direction: box filters of leaves and slots, each evaluated at one point.
+    /// The leaf contains a random point of the box around the point, of the size of the point's leaf. The slot contains a random
+    /// direction of the box around the direction, of the size of its slot. These are box filters, each evaluated at one point.
     /// [Mueller 2019, sections 10.3 and 10.4]
     PL_HD Entry entry_of(const Location& location, const DirectionSample& direction) const {
         if (direction.bin < 0 || !(direction.pdf_sa > 0.0f)) return {};

@@ -100,8 +100,8 @@ PL_HD inline void weigh_row(const TableUpdateView& field, std::uint32_t row) {
     field.row_cdf[row] = sum_of(field.column_cdf.data + first, side);
 }
 
-/// Turns weights into inclusive cumulative probabilities ending in exactly 1; into those of the uniform distribution if the
-/// total is not positive and finite. Returns the total of the weights, or 0.
+/// Turns weights into inclusive cumulative probabilities ending in exactly 1. The distribution is uniform if the total is not
+/// positive and finite. Returns the total of the weights, or 0.
 PL_HD inline float accumulate_cdf(float* weights, int count) {
     float total = 0.0f;
     for (int i = 0; i < count; ++i) {

@@ -11,7 +11,7 @@ namespace pl {
 /// Largest concentration: half of the light within 0.4 degrees.   [as Ruppert et al. 2020]
 inline constexpr float kMostKappa = 32000.0f;
 
-/// Density kappa / (2 pi (1 - exp(-2 kappa))) exp(kappa (cos - 1)), cos that of the angle with the mean.
+/// Density kappa / (2 pi (1 - exp(-2 kappa))) exp(kappa (cos - 1)), with the cosine between direction and mean.
 struct VmfLobe {
     Vec3f mean{0.0f, 0.0f, 1.0f};  ///< unit
     float kappa = 0.0f;            ///< concentration, in [0, kMostKappa]; 0: uniform

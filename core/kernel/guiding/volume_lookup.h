@@ -96,7 +96,7 @@ PL_HD inline void search_kd_tree(const KdTreeView& tree, Vec3f position, Vec3f n
     struct Range {
         std::uint32_t low, high;
     };
-    // Ranges on the far side of the node before or behind them; those behind it with their ends swapped. None is empty.
+    // Ranges on the far side of a splitting plane, still to be searched; swapped ends mark a range above its node. None is empty.
     Range stack[kMaxKdDepth];
     int depth = 0;
     Range range{0, tree.nodes.count};
