@@ -173,14 +173,12 @@ void bind_tracer(nb::module_& module) {
                 if (width < 1 || height < 1 || std::int64_t{width} * height > 1 << 24)
                     throw Error(ErrorKind::Usage,
                                 fmt::format("width, height: expected 1 to 2^24 pixels, got {}x{}", width, height));
-                                fmt::format("bsdf_fraction: expected 0 to 1, got {:g}", bsdf_fraction));
-                                new (self) BoundTracer(scene, sampler, bsdf_fraction,
-                                                       {.width = width,
-                                                        .height = height,
-                                                        .seed = seed,
-                                                        .max_depth = max_depth,
-                                                        .next_event = nee,
-                                                        .roulette = roulette ? RouletteRule::Albedo : kNoRoulette});
+                if (max_depth < 1)
+                    throw Error(ErrorKind::Usage, fmt::format("max_depth: expected at least 1, got {}", max_depth));
+                RenderSettings settings{
+                    .width = width, .height = height, .seed = seed, .max_depth = max_depth, .next_event = nee};
+                if (!roulette) settings.roulette = kNoRoulette;
+                new (self) BoundTracer(scene, sampler, bsdf_fraction, settings);
             },
             nb::arg("scene"), nb::arg("sampler") = nb::none(), nb::kw_only(), nb::arg("width") = 64,
             nb::arg("height") = 64, nb::arg("seed") = 1, nb::arg("nee") = true, nb::arg("max_depth") = 64,
@@ -196,16 +194,16 @@ void bind_tracer(nb::module_& module) {
             "light samples (nee), are weighed exactly. The mean of the film is right if pdf() is the density of "
             "sample(), does not change "
             "within a call of trace(), and together with the BSDF's share is positive wherever light is reflected. "
-            "Delta lobes are not "
-            "asked for. Without a sampler it is the method `default`.")
-        .def("trace", &BoundTracer::trace, nb::arg("samples") = 1,
-             "Adds samples to every pixel of the film. Returns the vertices of the new paths, a structured array: "
-             "pixel, sample, depth; "
-             "position, normal, outgoing, albedo; uniforms; throughput on arrival; direction, its pdf per steradian "
-             "(0 of a delta lobe), "
-             "and incident, the path's estimate of the radiance from there, in which emission that light samples "
-             "find as well has the "
-             "weight of the direction alone. Where a path ends direction, pdf and incident are 0.")
+            "What it answers at delta lobes is not used. "
+            "Without a sampler it is the method `default`.")
+        .def("trace", &BoundTracer::trace,
+             "Adds a sample to every pixel of the film. Returns the vertices of the new paths, by depth, then by "
+             "pixel, a structured array: "
+             "pixel, sample, depth; position, normal, outgoing, albedo; uniforms; throughput on arrival; direction; "
+             "its pdf per steradian, 0 "
+             "of a delta lobe; incident, the path's estimate of the radiance from there, in which emission that "
+             "light samples find as well has "
+             "the weight of the direction alone. Where a path ends direction, pdf and incident are 0.")
         .def("film", &BoundTracer::film, "Mean radiance, linear RGB. (height, width, 3) float32")
         .def_prop_ro("passes", &BoundTracer::passes, "Samples per pixel.")
         .def_prop_ro("invalid_samples", &BoundTracer::invalid_samples,
