@@ -1,6 +1,6 @@
 // Number traits. Arithmetic that runs on one number or on a vector of SIMD lanes is a template over N, which names
-// the number types and the operations without an operator: One for scalars, those of cpu/lanes/lanes.h for vectors. Both
-// use select() instead of branches and the same operations in the same order, so their bits agree.
+// the number types and the operations without an operator: One for scalars, the traits of cpu/lanes/lanes.h for
+// vectors. Both use select() instead of branches and the same operations in the same order, so their bits agree.
 #pragma once
 
 #include <bit>

@@ -22,7 +22,7 @@ PL_HD inline std::uint32_t pack_pixel(std::uint32_t r, std::uint32_t g, std::uin
     return 0xff000000u | r << 16 | g << 8 | b;
 }
 
-/// Display value of a pixel. `codes` must be those of style.curve.
+/// Display value of a pixel. `codes` must be the codes of style.curve.
 PL_HD inline std::uint32_t frame_pixel(Vec3f value, const FrameStyle& style, const ToneCodes& codes) {
     if (style.heat != 0) {
         const ByteColor color = heat_color(value.x * style.scale);

@@ -1,5 +1,5 @@
-// The weights of passes in a film. The first passes of a learning method are sampled while its field knows little: their
-// variance is many times that of later ones.
+// The weights of passes in a film. The first passes of a learning method are sampled while its field knows little:
+// their variance is many times the variance of later passes.
 #pragma once
 
 #include "core/kernel/base/math.h"

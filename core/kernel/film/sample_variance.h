@@ -71,7 +71,7 @@ struct PixelSubset {
 /// unbiased estimate of the variance of an independent sample L. Samples of one half of the film are spread evenly, and so
 /// depend on one another: m is the mean of the half that the pass does not belong to. Divided by m^2 it has a bias that vanishes with the
 /// number of samples behind m: methods are compared against the same m. Pixels that see a lamp are left out: their
-/// variance is that of emission, which no sampling of directions changes, see camera_emission.h.
+/// variance is the variance of emission, which no sampling of directions changes, see camera_emission.h.
 PL_HD inline void measure_variance(const FilmPixel& pixel, Vec3f radiance, std::uint32_t pass, VarianceSums& sums) {
     const bool sees_lamp = pixel.emission.is_lit() || pixel.emission.varies != 0 || pixel.emission.at_border != 0;
     const bool has_both_halves = pixel.second_weight > 0 && pixel.weight > pixel.second_weight;

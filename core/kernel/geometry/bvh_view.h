@@ -61,8 +61,8 @@ struct alignas(16) SmallLeaf {
 static_assert(sizeof(SmallLeaf) == 32 && kMostSmallTriangles <= 64);
 
 struct BvhView {
-    Span<const BvhNode> nodes;     ///< root first; empty for an empty scene
-    Span<const SmallLeaf> leaves;  ///< those of `nodes` once more, in their order; empty unless the scene is small
+    Span<const BvhNode> nodes;          ///< root first; empty for an empty scene
+    Span<const SmallLeaf> leaves;       ///< of `nodes` once more, in their order; empty unless the scene is small
     Span<const BvhTriangle> triangles;  ///< in the order of the leaves
 };
 
@@ -75,18 +75,18 @@ struct BoxRay {
 };
 
 /// Boxes are enlarged by a slack s on all sides, so that no box with the closest hit is skipped and traversal agrees bit by bit
-/// with a test of all triangles. With u the roundoff, A the largest component of the origin o, R that of the scene's corners seen
-/// from it, d the direction and D its largest component:
+/// with a test of all triangles. With u the roundoff, A the largest component of the origin o, R the largest
+/// component of the scene's corners seen from o, d the direction and D its largest component:
 ///   - The triangle test displaces corners by up to 8 u R across the ray and its distance by 10: a hit at the distance t lies in
 ///     the box enlarged by 18 u R on each axis, low - 18 u R <= o + t d <= high + 18 u R.
 ///   - The distance of a plane is computed as t' = (low i + a)(1 + e) with i = (1 + e) / d and a = -(o + s)(1 + e)^2 i, where
 ///     each e is another one of at most u; the last is at most 2 u, and the product low i has one more unless it is fused. So t' d
 ///     differs from q = low - o - s by at most 3 u |q| + u |low| + 2 u |o + s| <= u (4 R + 3 A + 5 s).
-///   - A component of the direction below 2^-40 D is set to that, which keeps its inverse finite and moves the point at t by less
-///     than 2^-40 (R + 18 u R).
+///   - A component of the direction below 2^-40 D is set to 2^-40 D, which keeps its inverse finite and moves the
+///     point at t by less than 2^-40 (R + 18 u R).
 /// The test then passes if s >= u (22 R + 3 A) (1 + 8 u) + 2^-39 R. The rest of 32 R + 4 A is for the rounding of s and R.
 /// (The bound does not cover triangles thinner than a few roundings of their corners: all their edge functions may be rounding errors,
-/// and the triangle test then accept rays that pass beside them, one in 1e6 of those aimed there.)
+/// and the triangle test then accept rays that pass beside them, one in 1e6 of the rays aimed there.)
 template <class Real>
 PL_INLINE Real box_slack(const Real& reach, const Real& origin) {
     return kRoundoff * (32.0f * reach + 4.0f * origin);

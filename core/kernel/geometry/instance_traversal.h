@@ -1,6 +1,6 @@
-// Traversal of the instances of a scene: a hierarchy over instances, in the space of the scene, and below each that of its mesh, in the
-// space of the mesh. Triangles are tested in the space of the scene, with the corners that copies of them would have: hits have the bits
-// of those of a scene with copies.
+// Traversal of the instances of a scene: a hierarchy over instances, in the space of the scene, and below each
+// instance the hierarchy of its mesh, in the space of the mesh. Triangles are tested in the space of the scene, with
+// the corners that copies of them would have: hits have the same bits as in a scene with copies.
 #pragma once
 
 #include "core/kernel/scene/instances.h"

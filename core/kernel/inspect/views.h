@@ -90,8 +90,8 @@ PL_HD inline Vec3f background(const SceneView& scene, Vec3f direction) {
     return radiance;
 }
 
-/// Learned irradiance / pi around a point: that of the nearest volumes, with weights that fall to zero at the distance of the
-/// last one, so that the result is continuous. Biased: a preview, not a picture.
+/// Learned irradiance / pi around a point: the mean over the nearest volumes, with weights that fall to zero at the
+/// distance of the last one, so that the result is continuous. Biased: a preview, not a picture.
 PL_HD inline float interpolated_mean_radiance(const ShownField& shown, const SurfacePoint& surface) {
     NearestSeveral<8> nearest;
     search_kd_tree(shown.placement.tree, surface.position, surface.geometric_normal, nearest);

@@ -17,8 +17,8 @@ inline constexpr std::uint32_t kSkyRays = 15;
 /// Camera rays that decide whether the emission of a pixel varies.
 inline constexpr std::uint32_t kBorderRays = 16;
 
-/// Luminance of the environment above which its borders count: at those of a dimmer one the samples of a pixel have less noise from
-/// the border than further rays are worth.
+/// Luminance of the environment above which its borders count: at the borders of a dimmer environment the samples of
+/// a pixel have less noise from the border than further rays are worth.
 inline constexpr float kBrightSky = 2.0f;
 
 /// Whether the camera may see emission with borders.
@@ -96,8 +96,8 @@ PL_HD inline Vec3f emission_correction(const EmissionContext& context, Rays& ray
 /// Corners of a pixel; every straight border that crosses it parts them.
 inline constexpr std::uint32_t kCorners = 4;
 
-/// A camera ray of a pixel that tells of its emission: through a corner for the first kCorners numbers, else through a point that is
-/// independent of those of its samples.
+/// A camera ray of a pixel that tells of its emission: through a corner for the first kCorners numbers, else through
+/// a point that is independent of the points of its samples.
 template <FeatureSet F>
 PL_HD inline Ray probing_ray(const EmissionContext& context, std::uint32_t pixel, std::uint32_t number) {
     Vec4f u = path_rng(context.settings, pixel, context.grid.sample).draw(number + 1, Purpose::Emission);
@@ -169,7 +169,7 @@ PL_HD inline bool is_refined(const EmissionSeen& seen) {
     return seen.varies == EmissionSeen::kLampBorder || seen.varies == EmissionSeen::kSkyBorder;
 }
 
-/// Samples of a pixel that a pass refines, the last ones up to that of the pass, and the further rays of each.
+/// Samples of a pixel that a pass refines, the last ones up to the sample of the pass, and the further rays of each.
 struct EmissionWork {
     std::uint32_t samples = 0;
     std::uint32_t rays = 0;
@@ -177,8 +177,9 @@ struct EmissionWork {
     PL_HD std::uint32_t all_rays() const { return samples * (rays + 1); }
 };
 
-/// The sample that a pass has added to a pixel whose emission varies; if it has just been found to vary, those of the passes before,
-/// too, which have the numbers before that of this one. `was_refined`: is_refined() before this pass.
+/// The sample that a pass has added to a pixel whose emission varies; if the emission has just been found to vary,
+/// also the samples of the passes before, whose numbers precede the number of this sample. `was_refined`:
+/// is_refined() before this pass.
 PL_HD inline EmissionWork emission_work(const EmissionContext& context, EmissionSeen& seen, bool was_refined) {
     if (seen.varies == 0) return {};
     if (seen.varies == EmissionSeen::kBorderMarked) seen.varies = EmissionSeen::kLampBorder;

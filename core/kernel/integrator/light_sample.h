@@ -43,7 +43,7 @@ PL_HD inline UnweightedLight reflect_light(const ScatterPoint<F, M>& from, const
     light.reflected = reflectance * emitted;
     light.irradiance = rms(emitted) * (kInvPi * sample.cos_i);
     if constexpr (F.has_any(kLobeFeatures)) {
-        // The radiance of a specular chain is that of its scattered directions.
+        // The radiance of a specular chain is the radiance from its scattered directions.
         light.reflected = from.bsdf.is_specular() ? Vec3f{0.0f} : weights.chain * light.reflected;
     }
     return light;

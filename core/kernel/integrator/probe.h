@@ -24,8 +24,8 @@ struct ProbeMethod : DefaultMethod {
 };
 static_assert(Method<ProbeMethod>);
 
-/// One of each 2 x 2 cells of every volume. Probes are numbered by quarters, so that those of the first one alone make a coarse map;
-/// within it volume-major, then by cell.
+/// One of each 2 x 2 cells of every volume. Probes are numbered by quarters, so that the probes of the first quarter
+/// alone make a coarse map; within a quarter volume-major, then by cell.
 struct ProbeQuarter {
     int x, y;           ///< of its cell in each block, 0 or 1
     int columns, rows;  ///< blocks of a volume

@@ -50,7 +50,7 @@ struct RouletteRound {
     typename N::Real weight;    ///< of a path that goes on: 1 / survival probability
     typename N::Real survival;  ///< PathState::survival afterwards
 };
-/// `survival`: PathState::survival, that of the last vertex included; u in [0, 1).
+/// `survival`: PathState::survival, the last vertex included; u in [0, 1).
 template <class N>
 PL_INLINE RouletteRound<N> play_roulette(const PathSettings& settings, const typename N::Real& estimate,
                                          const typename N::Real& survival, const typename N::Real& u) {

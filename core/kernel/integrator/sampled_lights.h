@@ -12,8 +12,8 @@ struct SampledScene {
     PathSettings path;
 };
 
-/// Without light samples those of delta lights remain, since no path finds these lights in another way: all others then have the
-/// density 0 of being sampled, and emission that paths hit has the weight 1.
+/// Without light samples the samples of delta lights remain, since no path finds these lights in another way: all
+/// other lights then have the density 0 of being sampled, and emission that paths hit has the weight 1.
 inline SampledScene with_delta_lights(SceneView scene, PathSettings path) {
     if (path.next_event != 0 || scene.delta_lights.empty()) return {scene, path};
     path.next_event = 1;

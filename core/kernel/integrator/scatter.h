@@ -82,7 +82,7 @@ PL_HD inline PathStatus terminate_black(const M& method, PathState<F, M>& state,
     return terminate_path(method, state, out);
 }
 
-/// The path leaves a vertex that may have a location. event.weight and event.albedo are those of this vertex alone.
+/// The path leaves a vertex that may have a location. event.weight and event.albedo belong to this vertex alone.
 template <FeatureSet F, Method M>
 PL_HD_INLINED void leave_vertex(const M& method, const typename M::Vertex& vertex, const ScatterEvent& event,
                                 PathState<F, M>& state, PathCounters& counters) {
@@ -95,7 +95,8 @@ PL_HD_INLINED void leave_vertex(const M& method, const typename M::Vertex& verte
                      {chain_weight * event.weight, chain_weight * event.albedo, event.direction}, counters.method);
 }
 
-/// Sends the path into `direction` with weight f cos / pdf. direction.pdf_sa is that of scatter_pdf_sa(), 0 for a delta lobe.
+/// Sends the path into `direction` with weight f cos / pdf. direction.pdf_sa is the density by scatter_pdf_sa(), 0
+/// for a delta lobe.
 template <FeatureSet F, Method M>
 PL_HD_INLINED PathStatus send_path(const M& method, const ScatterPoint<F, M>& from, const DirectionSample& direction,
                                    Vec3f weight, PathState<F, M>& state, PathCounters& counters) {

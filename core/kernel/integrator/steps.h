@@ -16,7 +16,8 @@ PL_HD inline Rng path_rng(const PathSettings& settings, std::uint32_t pixel, std
     return {settings.seed, settings.stream, pixel, sample};
 }
 
-/// Uniform numbers of a vertex: an argument of the steps, so that a back end may draw those of many paths at once.
+/// Uniform numbers of a vertex: an argument of the steps, so that a back end may draw the numbers of many paths at
+/// once.
 struct VertexUniforms {
     Vec4f scatter{0.0f};  ///< ScatterUniforms::u
     Vec4f light{0.0f};    ///< drawn only if lights are sampled

@@ -18,7 +18,7 @@ enum class LearningTarget : std::uint32_t {
 /// The part of incident radiance in a target if lights are sampled; without light samples both are the same.
 enum class LearnedLight : std::uint32_t {
     All,       ///< all radiance incident through the cell
-    Indirect,  ///< without that of the light samples of x: emission at y has the MIS weight of scattered directions
+    Indirect,  ///< without the light samples of x: emission at y has the MIS weight of scattered directions
 };
 
 struct LearningSettings {

@@ -95,9 +95,9 @@ struct MethodHooks {
     PL_HD Light light_sampled(auto&, const auto& /*vertex*/, const LightEstimate&) const { return {}; }
     PL_HD void record_light(const Light&, bool /*is_visible*/) const {}
     PL_HD void light_received(auto&, MethodCounters&) const {}
-    /// Contribution estimate: the radiance, rms() of its channels, still expected of the path as a share of that at its first
-    /// vertex. `survival`: the product of the albedos so far over that of the survival probabilities, the estimate of
-    /// a method without a field. Called once per vertex.
+    /// Contribution estimate: the radiance, rms() of its channels, still expected of the path as a share of the
+    /// radiance expected at its first vertex. `survival`: the product of the albedos so far over the product of the
+    /// survival probabilities, the estimate of a method without a field. Called once per vertex.
     PL_HD float estimate_contribution(const auto&, Vec3f /*albedo*/, Vec3f /*throughput*/, float survival,
                                       auto&) const {
         return survival;

@@ -21,8 +21,9 @@ struct MethodKernel {
 };
 
 // One line each: cuda/CMakeLists.txt counts them and compiles each in a file of its own. The host has a kernel besides for each
-// representation that devices do not have, see core/fields/field_kernels.h. Only tables have other targets than that of Expected Sarsa, and
-// kernels for fields that stay constant: a field of another kind stays constant by FieldTrainer::trains.
+// representation that devices do not have, see core/fields/field_kernels.h. Only tables have other targets than the
+// target of Expected Sarsa, and kernels for fields that stay constant: a field of another kind stays constant by
+// FieldTrainer::trains.
 // clang-format off
 using MethodList = TypeList<
     MethodKernel<Default, DefaultMethod>,

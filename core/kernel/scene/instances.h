@@ -27,7 +27,7 @@ struct Affine {
                 rows[1].x * v.x + rows[1].y * v.y + rows[1].z * v.z,
                 rows[2].x * v.x + rows[2].y * v.y + rows[2].z * v.z};
     }
-    /// The transposed map of vectors: that of the inverse takes normals along.
+    /// The transposed map of vectors: the transposed inverse maps normals.
     PL_HD Vec3f transposed(Vec3f n) const {
         return {rows[0].x * n.x + rows[1].x * n.y + rows[2].x * n.z,
                 rows[0].y * n.x + rows[1].y * n.y + rows[2].y * n.z,

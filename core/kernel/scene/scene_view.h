@@ -43,8 +43,8 @@ struct Light {
 
 struct SceneView {
     Span<const Vec3f> positions;
-    Span<const Triangle> triangles;                ///< those that are in the scene directly, then those of meshes
-    Span<const TrianglePlane> planes;              ///< [triangle], of those that are in the scene directly
+    Span<const Triangle> triangles;                ///< of the scene directly, then of meshes
+    Span<const TrianglePlane> planes;              ///< [triangle], of the triangles in the scene directly
     Span<const Vec3f> normals;                     ///< unit or 0; empty unless the scene has smooth normals
     Span<const TriangleNormals> triangle_normals;  ///< [triangle], or empty
     Span<const Vec3f> vertex_colors;               ///< [position], each channel in [0, 1]; empty if all are white
@@ -68,7 +68,8 @@ struct SceneView {
     Span<const DeltaLight> delta_lights;
     float delta_probability = 0.0f;  ///< that it chooses `delta_lights`; a multiple of 2^-10
 
-    /// Number of the triangles that are in the scene directly: primitives below it are these, others those of instances.
+    /// Number of the triangles that are in the scene directly: primitives below it are these triangles, others are
+    /// triangles of instances.
     PL_HD std::uint32_t direct_triangles() const { return planes.count; }
 };
 

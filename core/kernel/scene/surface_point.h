@@ -104,7 +104,7 @@ PL_INLINE Real3<N> unit_or(const Real3<N>& v, const Real3<N>& otherwise) {
     const auto length2 = dot(v, v);
     return select(static_cast<typename N::Mask>(length2 > 0.0f), scaled(v, 1.0f / N::sqrt(length2)), otherwise);
 }
-/// A normal of either side, turned to that of the geometric one.
+/// A normal of either side, turned to the side of the geometric normal.
 template <class N>
 PL_INLINE Real3<N> turned_to(const Real3<N>& geometric_normal, const Real3<N>& normal) {
     const auto is_same_side = static_cast<typename N::Mask>(dot(normal, geometric_normal) >= 0.0f);

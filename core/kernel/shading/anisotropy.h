@@ -38,7 +38,8 @@ public:
     PL_HD GgxOf<AnisotropicWidth> ggx(float roughness) const { return {{square(roughness) * stretch_, ratio_}}; }
     /// The roughness of the isotropic facets whose table of albedos serves.
     PL_HD float table_roughness(float roughness) const { return roughness * table_stretch_; }
-    /// Around the unit normal of the side that is seen. x is the direction in which the facets spread most: that of u, turned towards v.
+    /// Around the unit normal of the side that is seen. x is the direction in which the facets spread most: the
+    /// direction of u, turned towards v.
     static PL_HD Frame frame(const Grain& grain, Vec3f normal) {
         if (grain.material.ratio == 1.0f) return make_frame(normal);
         const float side = grain.front ? 1.0f : -1.0f;

@@ -296,8 +296,8 @@ PL_HD inline auto grain_at([[maybe_unused]] const SceneView& scene, [[maybe_unus
     return grain;
 }
 
-/// The BSDF of a surface point for wo: of a blend, that of the chosen material, with the normal of the surface's own. `b`: its
-/// barycentric weights.
+/// The BSDF of a surface point for wo: of a blend, the BSDF of the chosen material, with the normal of the material
+/// that blends. `b`: barycentric weights of the point.
 template <FeatureSet F>
 PL_HD inline Bsdf<F> make_bsdf(const SceneView& scene, const SurfacePoint& surface, Vec3f b, Vec3f wo) {
     const MaterialPoint shown = shown_material<F>(scene, surface, b, wo);

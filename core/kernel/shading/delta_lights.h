@@ -62,9 +62,9 @@ PL_HD inline DeltaIllumination illuminate(const DeltaLight& light, Vec3f point) 
 /// Most delta lights that a light sample compares.
 inline constexpr std::uint32_t kMostComparedLights = 32;
 
-/// A delta light counts as one of this inverse solid angle, 1/sr: light samples of it have radiance and density like others. Next to such
-/// densities those of directions vanish, so that its weight by multiple importance sampling is exactly 1. A power of two, which
-/// rounds nothing.
+/// A delta light counts as a light of this inverse solid angle, 1/sr: its light samples have radiance and density
+/// like others. Next to such densities the densities of directions vanish, so that the weight of the light by
+/// multiple importance sampling is exactly 1. A power of two, which rounds nothing.
 inline constexpr float kDeltaDensity = 0x1p60f;
 
 /// The target of shadow rays to the position of a delta light: no triangle.

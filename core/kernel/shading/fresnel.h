@@ -5,8 +5,9 @@
 
 namespace pl {
 
-/// Unpolarized Fresnel reflectance of a dielectric; `eta` is the index of refraction of the far side over that of the
-/// near side, cos_i in [0, 1]. 1 under total internal reflection.   [Born and Wolf, Principles of Optics, 1.5.2]
+/// Unpolarized Fresnel reflectance of a dielectric; `eta` is the index of refraction of the far side over the index
+/// of the near side, cos_i in [0, 1]. 1 under total internal reflection.   [Born and Wolf, Principles of Optics,
+/// 1.5.2]
 PL_HD inline float fresnel_dielectric(float cos_i, float eta) {
     const float sin2_t = (1.0f - cos_i * cos_i) / (eta * eta);
     if (sin2_t >= 1.0f) return 1.0f;
@@ -23,8 +24,8 @@ PL_HD inline float fresnel_pane(float cos_i, float eta) {
     return 2.0f * face / (1.0f + face);
 }
 
-/// Unpolarized Fresnel reflectance of a conductor with the complex index of refraction eta + i k over that of the near side.   [Born and
-/// Wolf, Principles of Optics, 14.2]
+/// Unpolarized Fresnel reflectance of a conductor with the complex index of refraction eta + i k, relative to the
+/// near side.   [Born and Wolf, Principles of Optics, 14.2]
 PL_HD inline float fresnel_complex(float cos_i, float eta, float k) {
     const float cos2 = cos_i * cos_i;
     const float sin2 = 1.0f - cos2;

@@ -30,12 +30,13 @@ struct SurfaceLobes {
 
 /// The anisotropy of a rough metal: microfacets that are wider along one direction than across it, see anisotropy.h. Isotropic by default.
 struct MaterialAnisotropy {
-    /// Width along that direction over the geometric mean of both widths, whose root the roughness is.
+    /// Width along the wider direction over the geometric mean of both widths. The roughness is the root of this
+    /// mean.
     float stretch = 1.0f;
-    float ratio = 1.0f;  ///< of the width across to that along, in (0, 1]
-    /// Roughness of the isotropic facets that reflect as much, over that of the material.
+    float ratio = 1.0f;  ///< of the width across to the width along, in (0, 1]
+    /// Roughness of the isotropic facets that reflect as much, over the roughness of the material.
     float table_stretch = 1.0f;
-    float cosine = 1.0f;  ///< of the angle from the direction of u, towards that of v
+    float cosine = 1.0f;  ///< of the angle from the direction of u towards the direction of v
     float sine = 0.0f;
 };
 

@@ -60,7 +60,7 @@ struct Velvet {
     Vec3f wo;
     float returned;  ///< directional albedo of such fibers for wo
 
-    /// At least what eval() integrates to, by up to a sixth: the base's part is that of wo alone.
+    /// At least the integral of eval(), by up to a sixth: the part of the base is scaled for wo alone.
     PL_HD Vec3f albedo() const { return returned * sheen + left_by_sheen(returned) * base; }
 
     PL_HD Vec3f eval(Vec3f wi) const {

@@ -6,9 +6,9 @@
 
 namespace pl {
 
-/// With y_1, y_2, ... the vertices after x, w_i the weights f cos / pdf (times that of roulette) of the directions
-/// scattered there, s_i the MIS share of L_e(y_i) of scattered directions, and D_i the radiance of its light sample
-/// reflected at y_i, the return is
+/// With y_1, y_2, ... the vertices after x, w_i the weights f cos / pdf (times the weight of roulette) of the
+/// directions scattered there, s_i the MIS share of L_e(y_i) of scattered directions, and D_i the radiance of its
+/// light sample reflected at y_i, the return is
 ///   R_i = s_i L_e(y_i) + D_i + w_i R_(i+1),   T = R_1 (indirect light), T = R_1 + (1 - s_1) L_e(y_1) (all light).
 /// A path remembers up to kMostSteps vertices until it ends. Beyond them its returns are truncated: rho V replaces
 /// the rest, later vertices make no training samples, and the path is counted in cut_returns.
