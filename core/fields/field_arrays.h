@@ -15,8 +15,8 @@
 
 namespace pl {
 
-/// The owners of an array's values. `count`: the number of values for each radiance volume by the shape of the field, or, if volumes own
-/// none, that of all by the host's storage of the field.
+/// The owners of an array's values. `count`: the number of values for each radiance volume by the shape of the field,
+/// or, if volumes own none, the number of all values by the host's storage of the field.
 template <class Count>
 struct ArrayOwner {
     const char* name;  ///< of one, in messages
@@ -185,7 +185,7 @@ Storage make_arrays(const FieldShape& shape, std::size_t volumes) {
     return arrays;
 }
 
-/// Gives the values that a volume owns those of make_arrays().
+/// Sets the values that a volume owns to the initial values of make_arrays().
 template <FieldStorage Storage>
 void reset_volume(const FieldShape& shape, Storage& arrays, std::size_t volume) {
     for_each_array(arrays, [&](const auto& spec, auto& values) {

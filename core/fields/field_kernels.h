@@ -33,7 +33,7 @@ constexpr auto host_kernels_of(TypeList<Models...>) {
     return (MethodList{} + ... + host_kernel_of<Models>());
 }
 
-/// All kernels of the host: those of MethodList, by the same numbers, and those that no device has.
+/// All kernels of the host: the kernels of MethodList, by the same numbers, and the kernels that no device has.
 using HostMethodList = decltype(host_kernels_of(FieldModels{}));
 
 /// Whether devices have kernels for a representation, too.

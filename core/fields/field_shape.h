@@ -10,8 +10,8 @@
 
 namespace pl {
 
-/// How a method that learns represents incident radiance. Files store these numbers, which are those of the models (FieldModel); the
-/// constants name those of this project for tests and front ends.
+/// How a method that learns represents incident radiance. Files store these numbers, which are the numbers of the
+/// models (FieldModel); the constants name the models of this project for tests and front ends.
 enum class Representation : std::uint32_t {
     Table,   ///< a table of cells per radiance volume
     SdTree,  ///< quadtrees over directions at the leaves of a binary tree over space   [Mueller et al. 2017]

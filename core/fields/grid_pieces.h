@@ -24,7 +24,7 @@ struct GridPieces {
 /// once.
 class GridJoiner {
 public:
-    /// `places`: [side], those of kind Grid or Cell with the numbers of their pieces.
+    /// `places`: [side]; places of kind Grid or Cell have the numbers of their pieces.
     explicit GridJoiner(std::vector<VolumePlace> places) : known_(16, Hash{&grid_.lists}, Same{&grid_.lists}) {
         grid_.sides = std::move(places);
     }

@@ -50,8 +50,8 @@ inline constexpr auto kAll = SpecList{
 
 }  // namespace lobe_arrays
 
-/// Density of a mixture in a direction of a volume's hemisphere, as its site samples it, relative to that of cosine sampling. `local`
-/// in the frame of the normal.
+/// Density of a mixture in a direction of a volume's hemisphere, as the site of the volume samples it, relative to
+/// the density of cosine sampling. `local`: the direction in the frame of the normal.
 float relative_density(const LobeMixture& mixture, Vec3f local);
 
 /// Mixtures of lobes as the sites of volumes see them; single directions by the cells that tables have.

@@ -100,8 +100,8 @@ bool MixtureFit::fit() {
     return true;
 }
 
-/// Samples that would say as much as those of the lobe if all of them were equally bright. Unknown before the second update, which is
-/// the first to know the mean weight: then a tenth of the number.
+/// Number of equally bright samples that would say as much as the samples of the lobe. Unknown before the second
+/// update, which is the first to know the mean weight: then a tenth of the number of samples.
 float MixtureFit::effective_samples(const FittedLobe& lobe) const {
     constexpr double kUnknown = 0.1;
     const auto share = static_cast<double>(share_of(lobe));
@@ -146,8 +146,8 @@ void MixtureFit::split_worst() {
     }
 }
 
-/// Two lobes of half the weight, apart by the square root of twice the variance along the axis of greatest variance: they keep half of
-/// it, and the sum of their moments is that of the one.
+/// Two lobes of half the weight, apart by the square root of twice the variance along the axis of greatest variance:
+/// they keep half of this variance, and their moments add up to the moments of the lobe that is split.
 void MixtureFit::split(std::size_t i) {
     const FittedLobe whole = lobes_[i];
     const Spread spread = widest_spread(whole);

@@ -102,7 +102,7 @@ public:
     /// Most nodes that one search may visit.
     void set_effort(int nodes) { effort_ = nodes; }
 
-    /// Nodes of the last set, as numbers of those of NormalTrees, by ascending volume.
+    /// Nodes of the last set, as numbers of nodes of NormalTrees, by ascending volume.
     const std::vector<std::uint32_t>& nodes() const { return nodes_; }
 
 private:

@@ -24,9 +24,10 @@ public:
 
     /// The cell of a unit normal.
     static std::size_t cell_of(Vec3f normal);
-    /// A tree of all nodes whose normals agree with one of the cell's, and of some others. Stays alive and the same.
+    /// A tree of all nodes whose normals agree with a normal of the cell, and of some others. Stays alive and the
+    /// same.
     KdTreeView tree_of(std::size_t cell);
-    /// The node of a volume among those of the constructor.
+    /// The node of a volume among the nodes of the constructor.
     std::uint32_t node_of(std::uint32_t volume) const { return node_of_volume_[volume]; }
     const KdNode& node_at(std::uint32_t volume) const { return nodes_[node_of_volume_[volume]]; }
 

@@ -36,7 +36,7 @@ void zip(const VolumeGridStorage<From>& from, To& to, Fn&& fn) {
     fn(from.lists, to.lists);
 }
 
-/// All arrays but those of the grid, which follows from the others and the scene: the content of field files.
+/// All arrays without the grid, which follows from the other arrays and the scene: the content of field files.
 template <template <class> class From, class To, class Fn>
 void zip_placement(const VolumeStorage<From>& from, To& to, Fn&& fn) {
     fn(from.sites, to.sites);

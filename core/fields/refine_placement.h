@@ -28,7 +28,7 @@ struct RefinedPlacement {
 /// second center of a least-squares quantizer of the volume's Voronoi cell, among the points of a denser placement,
 /// so that it is a position place_volumes() can choose. Volumes whose cell has no point that reduces the error are
 /// not split. Deterministic; scaling the scene by a power of two scales the result.   [Lloyd 1982]
-/// `source` is that of the placement, but for the camera, which is the present one.
+/// `source`: the source of the placement, with the present camera.
 RefinedPlacement refine_placement(const SiteSource& source, const PlacementView& placement,
                                   std::span<const std::uint32_t> split);
 

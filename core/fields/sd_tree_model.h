@@ -65,9 +65,10 @@ struct SdTreeInspector : IrradianceSummary<SdTreeField> {
 /// Share of a leaf's energy above which a quadrant is divided.   [Mueller et al. 2017: rho = 0.01]
 inline constexpr float kDividedShare = 0.01f;
 
-/// Training samples of a leaf above which it is split: kSplitSamples sqrt(n / kSplitReference), n those of all leaves, and at least
-/// kFewestSplitSamples. In the paper c sqrt(2^k) in iteration k, whose samples have doubled so often; the reference is the
-/// number of a first iteration, four paths for each of a million pixels. c is 12 000 in 2017 and 4000 in 2019.
+/// Training samples of a leaf above which it is split: kSplitSamples sqrt(n / kSplitReference), n the training
+/// samples of all leaves, and at least kFewestSplitSamples. In the paper c sqrt(2^k) in iteration k, whose samples
+/// have doubled so often; the reference is the number of samples of a first iteration, four paths for each of a
+/// million pixels. c is 12 000 in 2017 and 4000 in 2019.
 inline constexpr double kSplitSamples = 4000.0;
 inline constexpr double kSplitReference = 16777216.0;
 inline constexpr double kFewestSplitSamples = 2000.0;
@@ -112,8 +113,8 @@ struct SdTreeModel {
     static void update(const FieldShape& shape, const HostVolumes&, HostSdTree& tree, int threads);
     /// The leaf at the volume forgets its directions with it. The shape of the quadtree stays: the next update joins its quadrants.
     static void forget(const FieldShape& shape, const HostVolumes& volumes, HostSdTree& tree, std::size_t volume);
-    /// Nodes out of order, unreachable, shared or too deep, or sums that are not those of children. Without damage every lookup ends at
-    /// a leaf and at a slot that exist, and samples follow the densities.
+    /// Nodes out of order, unreachable, shared or too deep, or sums that differ from the sums of the children.
+    /// Without damage every lookup ends at a leaf and at a slot that exist, and samples follow the densities.
     static std::optional<FieldDamage> damage(const HostSdTree& tree);
 
     static constexpr std::uint32_t kMostNodes = kMostQuadNodes;

@@ -25,7 +25,8 @@ struct QuadNode {
 };
 using Quadtree = std::vector<QuadNode>;
 
-/// Moves the energies of a leaf, of nodes [first, end), towards those of its new samples; quadrants with children get their sums.
+/// Moves the energies of a leaf, of nodes [first, end), towards the energies of its new samples; quadrants with
+/// children get their sums.
 void absorb_leaf(const FieldShape& shape, HostSdTree& tree, std::uint32_t leaf, std::uint32_t first,
                  std::uint32_t end) {
     const std::uint32_t fresh = tree.pending_count[leaf];

@@ -12,9 +12,9 @@ namespace pl {
 /// Primitive of no surface: it reflects nothing, has no area, or is of an instance.
 inline constexpr std::uint32_t kNoSurface = 0xffffffffu;
 
-/// Each normal of a surface deviates from that of its first triangle by at most half of the largest angle between the
-/// normals of a volume and of the points it serves: then any volume on the surface may serve any of its points.
-/// cos(acos(0.8) / 2).
+/// Each normal of a surface deviates from the normal of its first triangle by at most half of the largest angle
+/// between the normals of a volume and of the points it serves: then any volume on the surface may serve any point of
+/// the surface. cos(acos(0.8) / 2).
 inline constexpr float kMinSurfaceCosine = 0.94868330f;
 
 /// A surface grown over shared corners from its first triangle.
