@@ -38,8 +38,8 @@ struct BuildSet {
     }
 };
 
-/// All triangles, in an order in which those of each set are neighbors. Dividing a set moves it from one buffer to the
-/// other.
+/// All triangles, in an order in which the triangles of each set are neighbors. Dividing a set moves it from one
+/// buffer to the other.
 class BuildTriangles {
 public:
     /// `box_of(i)`: the box of triangle i.

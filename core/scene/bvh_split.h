@@ -14,8 +14,8 @@ namespace pl {
 /// x, y, z and a number without meaning, in one vector register.
 using BuildVector = float __attribute__((vector_size(16)));
 
-/// The first of several equal corners counts, so that a box of boxes is that of their points in order, to the sign of a
-/// zero.
+/// The first of several equal corners counts, so that a box of boxes is the box of their points in order, to the sign
+/// of a zero.
 struct BuildBox {
     BuildVector low{kInfinity, kInfinity, kInfinity, kInfinity};
     BuildVector high{-kInfinity, -kInfinity, -kInfinity, -kInfinity};

@@ -24,7 +24,7 @@ struct TextureUse {
     std::uint32_t roughness = kNoTexture;  ///< first channel
     std::uint32_t emission = kNoTexture;
     std::uint32_t opacity = kNoTexture;  ///< alpha channel; see OpacityRule
-    std::uint32_t normal = kNoTexture;   ///< normals, which replace those of the surface: see normal_map.h
+    std::uint32_t normal = kNoTexture;   ///< replaces the normals of the surface: see normal_map.h
     std::uint32_t blend = kNoTexture;    ///< first channel; multiplies the share of a blend
 
     bool any() const { return (albedo & roughness & emission & opacity & normal & blend) != kNoTexture; }
@@ -52,7 +52,7 @@ enum class NormalGreen : std::uint32_t {
     Left,  ///< to the left of u, seen from the front; on mirrored images down
 };
 
-/// How a surface shows its opacity, a number times that of an image.
+/// How a surface shows its opacity, a number times the opacity of an image.
 enum class OpacityRule : std::uint32_t {
     Threshold,  ///< below one half there is a hole, else the surface is solid
     Blend,      ///< the share of light that the surface meets; the rest goes straight on
@@ -61,8 +61,8 @@ enum class OpacityRule : std::uint32_t {
 /// No material.
 inline constexpr std::uint32_t kNoMaterial = 0xffffffffu;
 
-/// Another material in the place of a material's reflection and transmission, with the probability of its share. Emission, opacity and
-/// normals are those of the material that blends.
+/// Another material in the place of a material's reflection and transmission, with the probability of its share.
+/// Emission, opacity and normals come from the material that blends.
 struct BlendDescription {
     std::uint32_t other = kNoMaterial;  ///< index into SceneDescription::materials; it may blend itself, in no circle
     float share = 0.5f;                 ///< of the other one, in [0, 1]; TextureUse::blend multiplies it
@@ -81,10 +81,10 @@ struct MaterialDescription {
     float roughness = 0.0f;  ///< in [0, 1]: sqrt(alpha) of the distribution of normals; 0: smooth
     /// Rough conductor: 1 - the ratio of the smaller to the larger width of its facets, whose geometric mean is alpha.
     float anisotropy = 0.0f;
-    float rotation_deg = 0.0f;     ///< of the direction of the larger width from that of u, towards that of v
+    float rotation_deg = 0.0f;     ///< of the larger width, from the direction of u towards the direction of v
     float ior = 1.5f;              ///< dielectric, plastic and pane: index of refraction, inside over outside
     glm::vec3 specular{1.0f};      ///< conductor: reflectance at normal incidence; others: tint of the reflection
-    glm::vec3 edge_tint{1.0f};     ///< conductor: reflectance at 82 degrees over that of Schlick's approximation
+    glm::vec3 edge_tint{1.0f};     ///< conductor: reflectance at 82 degrees over Schlick's approximation of it
     glm::vec3 transmission{1.0f};  ///< dielectric and pane: tint of the transmission
     glm::vec3 absorption{0.0f};    ///< dielectric: share of light that its inside absorbs per length, at least 0
     TextureUse textures{};
@@ -232,13 +232,13 @@ struct SceneDescription {
     std::string name;
     std::filesystem::path source;              ///< the file that was opened, for messages
     std::vector<std::filesystem::path> files;  ///< looked for by the loaders, without images, which have a `source`
-    glm::dvec3 origin{0.0};                    ///< of all coordinates here in those of the file: see far_origin()
+    glm::dvec3 origin{0.0};                    ///< of all positions here, in the file's coordinates: see far_origin()
     std::vector<glm::vec3> positions;
     /// Colors of the vertices at `positions`, each channel in [0, 1], which multiply what albedo textures multiply; or none.
     std::vector<glm::vec3> vertex_colors;
     std::vector<glm::vec3> normals;
     std::vector<glm::vec2> uvs;
-    std::vector<TriangleDescription> triangles;  ///< those that are in the scene directly, then those of all meshes
+    std::vector<TriangleDescription> triangles;  ///< of the scene directly, then of all meshes
     std::vector<MeshDescription> meshes;         ///< in the order of their triangles, without gaps
     std::vector<InstanceDescription> instances;
     std::vector<MaterialDescription> materials;
@@ -251,7 +251,7 @@ struct SceneDescription {
     EnvironmentMapDescription environment_map;  ///< added to `environment`; no map without texels
     SunDescription sun;                         ///< added to both
     std::vector<PunctualLightDescription> punctual_lights;
-    bool default_light = false;  ///< the map is that of add_default_light()
+    bool default_light = false;  ///< the map comes from add_default_light()
     std::vector<KnobDescription> knobs;
     std::vector<std::pair<std::string, std::string>> settings;  ///< presets: option name and value
     std::vector<std::string> warnings;                          ///< of the loaders, for the caller to report

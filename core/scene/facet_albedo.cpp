@@ -36,7 +36,7 @@ struct FacetInterface {
         return c * lambda / (c * lambda + 0.5f * (root - c));
     }
     float mirrored(float cos_m, float m_z) const { return shown(2.0f * cos_m * m_z - cos_o); }
-    /// Reflected light, given that of a mirror, and `counted` times the refracted light.
+    /// Reflected light, given the light `mirror` of a mirror, and `counted` times the refracted light.
     float scattered(float cos_m, float m_z, float mirror, float counted) const {
         const float cos_t = std::sqrt(std::max(1.0f - (1.0f - cos_m * cos_m) / (eta * eta), 0.0f));
         const float parallel = (eta * cos_m - cos_t) / (eta * cos_m + cos_t);

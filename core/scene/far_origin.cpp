@@ -17,7 +17,7 @@ glm::dvec3 far_origin(const glm::dvec3& low, const glm::dvec3& high) {
     for (int axis = 0; axis < 3; ++axis) {
         const double middle = 0.5 * low[axis] + 0.5 * high[axis];
         if (!(std::abs(middle) > kFarAway * extent)) continue;
-        // The bounds may be those of floats, which show no extent below their step.
+        // The bounds may be bounds of floats, which show no extent below their step.
         const double unit = std::exp2(std::floor(std::log2(std::max(extent, kFloatStep * std::abs(middle)))));
         origin[axis] = std::round(middle / unit) * unit;
     }

@@ -1,4 +1,4 @@
-// Scenes far from the origin of their coordinates, such as maps and buildings in those of a country.
+// Scenes far from the origin of their coordinates, such as maps and buildings in the coordinates of a country.
 #pragma once
 
 #include <glm/glm.hpp>

@@ -10,13 +10,14 @@
 
 namespace pl {
 
-/// Most triangles with those of every instance: primitives are numbered in 32 bits, of which the last is kNoPrimitive.
+/// Most triangles with the triangles of every instance: primitives are numbered in 32 bits, of which the last is
+/// kNoPrimitive.
 inline constexpr std::uint64_t kMostShownTriangles = std::uint64_t{kNoPrimitive} - 1;
 
 /// Number of the triangles that are in the scene directly: the first ones of SceneDescription::triangles.
 std::uint32_t direct_triangles(const SceneDescription& scene);
 
-/// Number of the triangles that rays may meet, with those of every instance.
+/// Number of the triangles that rays may meet, with the triangles of every instance.
 std::uint64_t shown_triangles(const SceneDescription& scene);
 
 /// Whether a material is on a mesh.

@@ -10,7 +10,7 @@
 
 namespace pl {
 
-/// Effects of geometry, materials and lights; without those of settings and camera.
+/// Effects of geometry, materials and lights; without the effects of settings and camera.
 FeatureSet needed_effects(const HostScene& scene);
 /// Effects of the camera.
 FeatureSet needed_effects(const CameraDescription& camera);

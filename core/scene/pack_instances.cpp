@@ -92,12 +92,12 @@ public:
         return rounded_outwards(low - slack, high + slack);
     }
 
-    /// Instance::error and error_per_distance. With u the roundoff, O the largest component of a ray's origin o, G that of the
-    /// corners in the world, c a corner of the mesh, and the norms of rows: the ray test finds a hit o + t d within 18 u R of
-    /// the triangle whose corners are A c + a, each within 4 u G (see box_slack()), and R <= O + G. The inverse takes it to within
-    /// |B| (18 u R + 4 u G) + |B A - 1| |c| + |B a + b| of the mesh. The ray in the mesh is rounded: its origin by
-    /// 4 u (|B| O + |b|), its direction times t by 3 u |B| R. The sum is at most
-    /// u (|B| (26 O + 26 G) + 4 |b|) + |B A - 1| |c| + |B a + b|.
+    /// Instance::error and error_per_distance. With u the roundoff, O the largest component of a ray's origin o, G
+    /// the largest component of the corners in the world, c a corner of the mesh, and the norms of rows: the ray test
+    /// finds a hit o + t d within 18 u R of the triangle whose corners are A c + a, each within 4 u G (see
+    /// box_slack()), and R <= O + G. The inverse takes it to within |B| (18 u R + 4 u G) + |B A - 1| |c| + |B a + b|
+    /// of the mesh. The ray in the mesh is rounded: its origin by 4 u (|B| O + |b|), its direction times t by
+    /// 3 u |B| R. The sum is at most u (|B| (26 O + 26 G) + 4 |b|) + |B A - 1| |c| + |B a + b|.
     void bound_errors(Instance& instance) const {
         glm::dmat3 inverse;
         Vec3d inverse_offset;

@@ -162,7 +162,7 @@ Vec3d safe_unit(Vec3d v) {
 
 /// Bytes of the packed scene, and of what its construction takes at the same time, by measured peaks.
 std::uint64_t bytes_to_pack(const SceneDescription& scene) {
-    constexpr std::uint64_t kPerTriangle = 220;  // with its share of the hierarchies, that of the back end included
+    constexpr std::uint64_t kPerTriangle = 220;  // with its share of the hierarchies, the back end's included
     constexpr std::uint64_t kPerInstance = 400;
     constexpr std::uint64_t kPerTexel = 2 * sizeof(Texel);  // twice while the array grows
     constexpr std::uint64_t kPerMapTexel = 32;

@@ -22,11 +22,12 @@ void pack_textures(const SceneDescription& scene, HostScene& packed);
 /// that the densities of lights include it. Returns the power of the far lights, divided by pi.
 double pack_far_lights(const SceneDescription& scene, HostScene& packed);
 
-/// Packs the lights without extent. The others and they are sampled in proportion to their power, at least a tenth of the samples
-/// each. `far_power`: of pack_far_lights(), which must have run. Scales the probabilities of the others.
+/// Packs the lights without extent. These and all other lights are sampled in proportion to their power, at least a
+/// tenth of the samples each. `far_power`: of pack_far_lights(), which must have run. Scales the probabilities of the
+/// other lights.
 void pack_delta_lights(const SceneDescription& scene, double far_power, HostScene& packed);
 
-/// Bound on the edges of all triangles of instances; `triangles`: those of the scene, packed. 0 without instances.
+/// Bound on the edges of all triangles of instances; `triangles`: of the scene, packed. 0 without instances.
 double longest_instance_edge(const SceneDescription& scene, Span<const Triangle> triangles);
 
 /// Packs transformations, and the hierarchies of meshes and of instances. Expects packed triangles.

@@ -96,7 +96,7 @@ private:
     std::vector<std::uint32_t> image_of_;
 };
 
-/// Materials that paths meet: those of triangles, and those that they blend with.
+/// Materials that paths meet: the materials of triangles, and the materials that these blend with.
 struct Uses {
     std::vector<bool> on_triangles;
     std::vector<bool> shown;

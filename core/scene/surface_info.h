@@ -82,7 +82,7 @@ struct SurfaceParameter {
     const char* label;
     const char* tip;
     bool (*matters)(const MaterialDescription&) = nullptr;  ///< whether it is shown; always without this
-    /// Of a color without a limit: those of the color, beside the row of its largest channel.
+    /// Of a color without a limit: label and tip of the color, beside the row of its largest channel.
     const char* color_label = nullptr;
     const char* color_tip = nullptr;
 };
@@ -91,7 +91,8 @@ struct SurfaceParameter {
 struct SurfaceInfo {
     ChoiceInfo<SurfaceKind> choice;
     FeatureSet effects{};  ///< needed besides Specular, of smooth surfaces, or Rough
-    /// Color by which programs that know no more show the surface; images multiply it, but not that of glass.
+    /// Color by which programs that know no more show the surface; images multiply the color, except the color of
+    /// glass.
     glm::vec3 MaterialDescription::*color = &MaterialDescription::albedo;
     /// Surfaces at least this rough are guided, by the smaller of two widths.
     float least_guided_roughness = 0.0f;
