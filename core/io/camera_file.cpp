@@ -53,7 +53,7 @@ CameraDescription read_whole_camera(const JsonDocument& file, const std::string&
     return camera;
 }
 
-/// All cameras of a file; missing members are those of `standard`. Throws Error(Input).
+/// All cameras of a file; missing members come from `standard`. Throws Error(Input).
 std::vector<CameraDescription> read_cameras(const JsonDocument& file, const CameraDescription& standard) {
     file.object("", {"schema", "cameras"});
     const std::string schema = file.text("/schema").value_or("none");

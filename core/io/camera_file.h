@@ -1,4 +1,4 @@
-// Cameras in JSON: parts of one for --camera, or those of a path in their order.
+// Cameras in JSON: parts of one camera for --camera, or the cameras of a path in their order.
 #pragma once
 
 #include <array>
@@ -44,15 +44,15 @@ void read_camera_parts(const JsonDocument& file, CameraChoice& camera);
 
 inline constexpr const char* kCamerasSchema = "pathlight.cameras/1";
 
-/// Reads {"schema": kCamerasSchema, "cameras": [camera_json(), ...]}; missing members of a camera are those of `standard`.
-/// Throws Error(Input) with file and line.
+/// Reads {"schema": kCamerasSchema, "cameras": [camera_json(), ...]}; members that a camera lacks come from
+/// `standard`. Throws Error(Input) with file and line.
 std::vector<CameraDescription> load_cameras(const std::filesystem::path& path, const CameraDescription& standard);
 
 /// The path through the cameras of a file. Throws Error(Input) with file and line, also for fewer than CameraPath::kFewest.
 CameraPath load_camera_path(const std::filesystem::path& path, const CameraDescription& standard);
 
-/// The member "cameras" of a scene file: [camera_json() with "name" and "aspect", ...], each of which may be missing; members
-/// of a camera are then those of `standard`. Throws Error(Input) with file and line.
+/// The member "cameras" of a scene file: [camera_json() with "name" and "aspect", ...], each of which may be missing;
+/// missing members of a camera come from `standard`. Throws Error(Input) with file and line.
 std::vector<NamedCamera> read_named_cameras(const JsonDocument& file, const CameraDescription& standard);
 
 /// For read_named_cameras().
@@ -66,7 +66,8 @@ void save_cameras(const std::filesystem::path& path, std::span<const CameraDescr
 /// Value of the setting `size` for pictures of this width over height.
 std::string size_of_aspect(float aspect);
 
-/// The first listed camera; without any that of frame_camera(). Expects SceneDescription::up and a triangle.
+/// The first listed camera, or the camera of frame_camera() if none is listed. Expects SceneDescription::up and a
+/// triangle.
 void set_default_camera(SceneDescription& scene);
 
 /// Sets the camera that is asked for by name or number; if nothing is asked, the camera stays. The shape of the picture of a listed

@@ -23,7 +23,7 @@ struct ExrPart {
 /// Where the numbers of a picture are.
 struct ExrLayer {
     int part = 0;
-    std::string name{};                   ///< "" for that of the channels without a prefix
+    std::string name{};                   ///< "" for the channels without a prefix
     std::array<std::string, 3> channels;  ///< red, green and blue; the same one for gray
     std::string alpha{};                  ///< "" without one
     bool is_luminance_chroma = false;

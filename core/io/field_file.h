@@ -13,7 +13,7 @@
 
 namespace pl {
 
-// The layout of a learned field in files: in those of fields, and in checkpoints.
+// The layout of a learned field in field files and in checkpoints.
 
 template <class Stream, class Settings>
 void transfer_settings(Stream& stream, Settings& settings) {
@@ -51,7 +51,8 @@ std::string choice_numbers() {
     return fmt::format("{}", fmt::join(numbers, ", "));
 }
 
-/// Throws Error(Input) unless a number that was read from `what`, a file at `path`, is that of a representation.
+/// Throws Error(Input) unless a number that was read from `what`, a file at `path`, is the number of a
+/// representation.
 inline void require_representation(Representation representation, const std::filesystem::path& path,
                                    std::string_view what) {
     constexpr auto kPriorOfTables = static_cast<Representation>(3);

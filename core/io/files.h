@@ -11,8 +11,8 @@ namespace pl {
 /// large for the memory.
 std::string read_file(const std::filesystem::path& path);
 
-/// As read_file(), in UTF-8 without a byte order mark; a file that starts with that of UTF-16 is converted. Throws Error(Input) also
-/// for damaged UTF-16.
+/// As read_file(), in UTF-8 without a byte order mark; a file that starts with a byte order mark of UTF-16 is
+/// converted. Throws Error(Input) also for damaged UTF-16.
 std::string read_text_file(const std::filesystem::path& path);
 
 /// File name extension with its dot, in lower case.

@@ -14,8 +14,8 @@
 namespace pl {
 namespace {
 
-/// For parallel rays along an axis through the scene's bounds: the first and the last surface that each meets. Coordinates
-/// are those of the bounds, from 0 to 1.
+/// For parallel rays along an axis through the scene's bounds: the first and the last surface that each meets.
+/// Coordinates are relative to the bounds, from 0 to 1.
 class DepthGrid {
 public:
     explicit DepthGrid(int axis) : axis_(axis), across_((axis + 1) % 3), along_((axis + 2) % 3) {
@@ -81,8 +81,7 @@ private:
     std::array<double, std::size_t{kOpenSideGrid} * kOpenSideGrid> last_;
 };
 
-/// The grids of the two horizontal axes: that of front_of(scene.up) first.
-/// Along the two horizontal axes.
+/// The grids of the two horizontal axes, the grid of front_of(scene.up) first.
 using DepthGrids = std::array<DepthGrid, 2>;
 
 DepthGrids depth_grids(const SceneDescription& scene, const Bounds& bounds, const DepthGrids& empty) {

@@ -122,7 +122,7 @@ struct LinearSettings {
     void (*require_size)(const std::filesystem::path& path, long long width, long long height) = require_plausible;
     ImageMetadata* metadata = nullptr;
     std::vector<std::string>* warnings = nullptr;  ///< receives what the reader chose or left out
-    std::vector<float>* alpha = nullptr;           ///< receives that of each pixel, if the file has it
+    std::vector<float>* alpha = nullptr;           ///< receives the alpha of each pixel, if the file has alpha
 
     /// A warning about the file.
     void note(const std::string& what) const;
@@ -132,8 +132,8 @@ struct LinearSettings {
 /// measured.
 LinearImage decode_linear(const std::string& bytes, const LinearSettings& settings);
 
-/// The layer of an EXR file that choose_exr_layer() names, without subsampled channels but those of luminance and
-/// chroma. The image is the data window, of colors as they are stored, times alpha.   [OpenEXR, "Technical Introduction"]
+/// The layer of an EXR file that choose_exr_layer() names, without subsampled channels except luminance and chroma.
+/// The image is the data window, of colors as they are stored, times alpha.   [OpenEXR, "Technical Introduction"]
 LinearImage decode_exr(const std::string& bytes, const LinearSettings& settings);
 
 /// PFM of colors ("PF") or gray ("Pf"), of either byte order.

@@ -86,7 +86,7 @@ public:
     }
 
 private:
-    /// An open object or array: its pointer, and that of its current member.
+    /// An open object or array: its pointer, and the pointer of its current member.
     struct Level {
         std::string base;
         std::string pointer;

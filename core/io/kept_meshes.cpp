@@ -51,7 +51,7 @@ namespace {
 
 bool mirrors(const glm::dmat4& to_world) { return glm::determinant(glm::dmat3(to_world)) < 0.0; }
 
-/// Of the mesh that is kept for an orientation, relative to that of the file.
+/// Transformation of the mesh that is kept for an orientation, relative to the mesh of the file.
 glm::dmat4 orientation_of(bool is_mirrored) {
     glm::dmat4 orientation(1.0);
     if (is_mirrored) orientation[0].x = -1.0;

@@ -14,14 +14,14 @@
 
 namespace pl {
 
-// Triangles of one description behind those of another.
+// Triangles of one description behind the triangles of another.
 
-/// Moves the direct triangles of `added`, with their positions, colors, normals and texture coordinates, and its warnings, behind those
-/// of the scene. `added` has no meshes; its materials are those of the scene. Vertices of a part without colors become white if the
-/// other one has some.
+/// Moves the direct triangles of `added`, with their positions, colors, normals and texture coordinates, and its
+/// warnings, behind the triangles and warnings of the scene. `added` has no meshes; its materials come from the
+/// scene. Vertices of a part without colors become white if the other part has colors.
 void append_triangles(SceneDescription added, SceneDescription& scene);
 
-/// Most triangles and vertices that a glTF or Mitsuba file makes the program store: those of meshes and of copies.
+/// Most triangles and vertices that a glTF or Mitsuba file makes the program store, of meshes and of copies.
 inline constexpr std::uint64_t kMostStoredTriangles = std::uint64_t{1} << 26;
 inline constexpr std::uint64_t kMostStoredVertices = std::uint64_t{1} << 27;
 /// Most places of meshes in a file.

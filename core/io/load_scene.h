@@ -27,16 +27,16 @@ SceneDescription load_mesh(const std::filesystem::path& path, MeshGroups* groups
 /// validate_scene(). A scene NAME is the file scenes/NAME/NAME.json. An .obj alone gets the camera of frame_camera();
 /// an up vector parallel to the viewing direction is replaced, with a warning. Knobs are applied by read_knobs(), then
 /// LoadSettings::materials; meshes that emit by these are copied, see copy_emitting_meshes(). A
-/// scene without light gets that of add_default_light(), unless `asked` or its setting default-light say off; a
+/// scene without light gets the light of add_default_light(), unless `asked` or its setting default-light say off; a
 /// warning tells of either.
 /// Throws Error(Input) if there is no such file or scene (the message names the nearest known one) or its content is
 /// invalid, and Error(Usage) for an unknown knob or a value out of its range.
 SceneDescription load_scene(const std::string& name_or_path, const std::filesystem::path& assets_dir,
                             const LoadSettings& asked = {});
 
-/// The folder that contains `scenes/`: the environment variable PATHLIGHT_ASSETS if it is set, else that of an installed
-/// program, `../share/pathlight/assets` from the program's folder, else `assets` in the program's folder or one of its
-/// parents, else that of the source tree. Throws Error(Input) if there is none.
+/// The folder that contains `scenes/`: the environment variable PATHLIGHT_ASSETS if it is set, else the folder of an
+/// installed program, `../share/pathlight/assets` from the program's folder, else `assets` in the program's folder or
+/// one of its parents, else the folder of the source tree. Throws Error(Input) if there is none.
 std::filesystem::path find_assets_dir();
 
 /// Names of the scenes in assets_dir/scenes, sorted.

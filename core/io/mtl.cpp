@@ -224,7 +224,7 @@ private:
     Tally moved_;
 };
 
-/// The place of the images of a material: that of the first one. `differs` if not all are there.
+/// The place of the images of a material: the place of the first image. `differs` if another image has another place.
 UvScale uvs_of(const MtlEntry& entry, bool& differs) {
     const MtlMap* first = nullptr;
     for (const MtlMap* map : {&entry.map_kd, &entry.map_ke, entry.map_pr ? &entry.map_pr : &entry.map_ns,

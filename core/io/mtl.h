@@ -26,7 +26,7 @@ inline constexpr float kLeastRoughIor = 1.05f;
 /// 2)). [Walter et al. 2007, section 5.2]
 float roughness_of_exponent(float ns);
 
-/// Whether the model, the filter color or the index of refraction of an entry are those of glass, if it lets light through.
+/// Whether an entry, if it lets light through, has the model, the filter color or the index of refraction of glass.
 bool may_be_glass(const MtlEntry& entry);
 
 /// Kind, colors and numbers of a material, without its textures. `notes` receives the features that are not
@@ -46,9 +46,9 @@ MaterialDescription surface_of(const MtlEntry& entry, std::vector<std::string>& 
 /// warning, as do ignored statements that would change the picture and textures that cannot be read.
 /// With MapKd::Replaces an image of Kd is multiplied by 1. With MapKd::Multiplies one warning tells of materials whose Kd is a
 /// default of exporters.
-/// The scene's folder is that of scene.source, or of the file if there is none. Returns, for each material that was added, the place of
-/// its images, which the caller gives to the texture coordinates; of images in several places the first counts, with a warning.
-/// Throws Error(Input) for a file that is no text.
+/// The scene's folder is the folder of scene.source, or of the file if there is none. Returns, for each material that
+/// was added, the place of its images, which the caller gives to the texture coordinates; of images in several places
+/// the first counts, with a warning. Throws Error(Input) for a file that is no text.
 std::vector<UvScale> load_mtl(const std::filesystem::path& path, SceneDescription& scene,
                               MapKd map_kd = MapKd::Multiplies);
 

@@ -29,7 +29,7 @@ bool are_numbers(const Words& words, std::initializer_list<double> wanted) {
                       [](std::string_view word, double number) { return parse_number(word) == number; });
 }
 
-/// The factor or distance of u and v, of which the missing ones stay; that of the depth, the third one, changes no image.
+/// The factor or distance of u and v. Missing numbers stay; the third number, for the depth, changes no image.
 bool read_pair(const Words& values, bool is_factor, glm::vec2& to) {
     constexpr double kMost = 1e6;
     glm::vec2 read = to;

@@ -38,8 +38,8 @@ struct MeshGroups {
     std::vector<std::uint32_t> of_triangle{};  ///< index into `names`, parallel to SceneDescription::triangles
 };
 
-/// The elements of the file, with no look at its materials; those of faces far from the origin are read again from an origin near
-/// them. Throws Error(Input) as load_obj() does.
+/// The elements of the file, with no look at its materials. The elements of faces far from the origin are read again
+/// from an origin near the faces. Throws Error(Input) as load_obj() does.
 ObjMesh read_obj_mesh(const std::filesystem::path& path);
 
 /// Reads geometry and materials; the caller sets camera and name.
@@ -47,7 +47,7 @@ ObjMesh read_obj_mesh(const std::filesystem::path& path);
 ///   merged, and listed in `groups` if it is not null.
 /// - Corners share a vertex exactly if they share its index, so watertight meshes stay watertight.
 /// - Faces without a material get a default one with kDefaultAlbedo, with one warning for the whole scene.
-/// - Faces of a smoothing group (`s`) without normals get those of smooth_normals().
+/// - Faces of a smoothing group (`s`) without normals get the normals of smooth_normals().
 /// - Triangles too small to have a normal are removed; normals of length 0, or missing at a corner of a triangle, are
 ///   ignored; each with one counted warning. A triangle with a corner without texture coordinates has none.
 /// - Files that it names are looked for as find_named_file() does.

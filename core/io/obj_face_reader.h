@@ -42,7 +42,7 @@ struct ObjFaceTallies {
     Tally unusable_faces;
     Tally unusable_corners;  ///< faces shown without normals or texture points
 
-    /// Adds those of the part of the text that follows.
+    /// Adds the tallies of the part of the text that follows.
     void add(const ObjFaceTallies& later);
 };
 

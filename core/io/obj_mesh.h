@@ -25,7 +25,7 @@ struct ObjCorner {
 enum class Smoothing : std::uint8_t {
     Off,
     On,
-    Inherited  ///< that of the part of the text before
+    Inherited  ///< from the part of the text before
 };
 
 /// Consecutive faces of a file.
@@ -83,7 +83,7 @@ inline constexpr std::size_t kObjChunk = std::size_t{1} << 20;
 /// `chunk_bytes`. Negative indices count back from the face. Elements without usable numbers are zeros. Faces with a vertex of this kind,
 /// or one that is not there, are left out; so are the normals and texture points of a face if one of them is of this kind; each kind of
 /// fault with one counted warning. Throws Error(Input) for a control character, with its line, for too many elements, and if there is no
-/// usable face. `origin`: that of the mesh.
+/// usable face. `origin`: of the mesh.
 ObjMesh read_obj_text(std::string_view text, const std::filesystem::path& path, int threads,
                       const glm::dvec3& origin = glm::dvec3(0.0), std::size_t chunk_bytes = kObjChunk);
 

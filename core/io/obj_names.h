@@ -25,8 +25,8 @@ struct NamedFile {
 };
 
 /// The file of a name, with slashes of either kind, in a text in the folder `root / from`. Nothing but `root` and below is looked at, and
-/// for images, which programs write into a folder beside that of the OBJ file, the folder above: of a name that is absolute, leads
-/// elsewhere, or has no file, the longest end that has one in `from` or `root` counts.
+/// for images, which programs write into a folder beside the folder of the OBJ file, the folder above: of a name that
+/// is absolute, leads elsewhere, or has no file, the longest end that has one in `from` or `root` counts.
 NamedFile find_named_file(const std::filesystem::path& root, const std::filesystem::path& from, std::string_view name,
                           bool is_image = false);
 

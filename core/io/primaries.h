@@ -15,8 +15,9 @@ struct Primaries {
 /// [IEC 61966-2-1]
 inline constexpr Primaries kSrgbPrimaries{{0.64, 0.33}, {0.30, 0.60}, {0.15, 0.06}, {0.3127, 0.3290}};
 
-/// Makes linear colors of these primaries those of sRGB, with a note; white stays white. Colors beyond sRGB get negative parts. Primaries as
-/// near as those of Radiance count as sRGB's, and all 0 as none: Photoshop writes them.
+/// Converts linear colors of these primaries to sRGB, with a note; white stays white. Colors beyond sRGB get negative
+/// parts. Primaries as near to sRGB's as the primaries of Radiance count as sRGB's. Primaries that are all 0 count as
+/// none: Photoshop writes them.
 void convert_to_srgb(const Primaries& from, const LinearSettings& settings, LinearImage& image);
 
 }  // namespace pl

@@ -31,14 +31,14 @@ Json punctual_light_json(const PunctualLightDescription& light);
 ///   camera       eye, target, up, fov_deg (vertical); defaults frame the scene, level by the vertical axis. With
 ///                aperture_radius > 0 a thin lens focused at focus_distance, by default the distance of the target
 ///   cameras      cameras to choose from, see read_named_cameras(); the first is shown unless there is a `camera`
-///   normals      "unit": those of the OBJ file that are unit to within rounding are taken to the bit; else "any"
+///   normals      "unit": normals of the OBJ file that are unit to within rounding are taken to the bit; else "any"
 ///   map_kd       "replace": an image of map_Kd alone is the albedo of an MTL entry; else "multiply": it is multiplied by Kd
 ///   environment  see read_environment()
 ///   materials    name of an MTL entry -> overrides, see read_materials()
 ///   knobs        see read_knobs()
 ///   settings     option name -> value, kept as text for the command line (true and false become on and off)
-/// The vertical axis SceneDescription::up is that of `asked` or of the setting up-axis; else the one nearest to the
-/// camera's up; else +y for a camera with eye or target, else guess_up(). The caller sees to the default light.
+/// The vertical axis SceneDescription::up is the axis of `asked` or of the setting up-axis; else the axis nearest to
+/// the camera's up; else +y for a camera with eye or target, else guess_up(). The caller sees to the default light.
 /// Throws Error(Input) with file and line; for an unknown key the message names the nearest known one.
 SceneDescription load_scene_json(const std::filesystem::path& path, const LoadSettings& asked = {});
 

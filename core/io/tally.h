@@ -29,7 +29,8 @@ struct Tally {
         ++count;
     }
 
-    /// Adds the statements of lines below those of this one, whose lines count from behind `lines_before`.
+    /// Adds a tally of statements below the statements of this tally. The lines of `later` count from behind
+    /// `lines_before`.
     void add(const Tally& later, int lines_before = 0) {
         if (count == 0) {
             first_line = later.first_line + lines_before;

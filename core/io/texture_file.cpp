@@ -213,7 +213,7 @@ std::array<float, 256> values_of_codes(TextureContent use) {
     return values;
 }
 
-/// The picture in 8 bits; nothing if a value is not that of a code.
+/// The picture in 8 bits; nothing if a value has no code.
 std::optional<ByteImage> in_bytes(const LinearImage& image, TextureContent use) {
     const std::array<float, 256> values = values_of_codes(use);
     ByteImage bytes{.width = image.width, .height = image.height, .rgb = {}};

@@ -23,7 +23,7 @@ float decode_srgb(float code);
 TextureDescription read_texture(const std::filesystem::path& path, TextureContent content, bool repeats,
                                 std::vector<std::string>& warnings);
 
-/// As read_texture() for the bytes of a file; `source` is for messages, and becomes that of the texture.
+/// As read_texture() for the bytes of a file; `source` is for messages, and becomes the source of the texture.
 TextureDescription decode_texture(const std::string& bytes, const std::filesystem::path& source,
                                   TextureContent content, bool repeats, std::vector<std::string>& warnings);
 

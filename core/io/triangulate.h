@@ -1,5 +1,5 @@
-// Triangulation of simple polygons. Replaces that of the OBJ library, which covers L-shaped polygons twice or not at
-// all away from the origin, and splits concave quads along an outer diagonal.
+// Triangulation of simple polygons. Replaces the triangulation of the OBJ library, which covers L-shaped polygons
+// twice or not at all away from the origin, and splits concave quads along an outer diagonal.
 #pragma once
 
 #include <algorithm>

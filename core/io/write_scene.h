@@ -32,8 +32,8 @@ struct SceneParts {
 /// left out, the mesh has their values; a default light is written as the environment map that it is. All is there or
 /// nothing: the folder appears when it is complete, the scene file after it.
 /// Instances are written as copies, whose primitives and corners are the same. Expects a valid scene. Throws Error(Usage) for a name that
-/// does not end with .json or is taken, Error(Input) for a scene of more than kMostStoredTriangles with those of all instances,
-/// Error(Runtime) if a file cannot be written.
+/// does not end with .json or is taken, Error(Input) for a scene of more than kMostStoredTriangles with the triangles
+/// of all instances, Error(Runtime) if a file cannot be written.
 SceneParts write_scene(const SceneDescription& scene, const std::filesystem::path& path);
 
 }  // namespace pl

@@ -182,7 +182,7 @@ std::string GltfImages::image_bytes(std::uint32_t image) {
     return std::string(file_.view_bytes(file_.required_index(at + "/bufferView", "bufferViews")));
 }
 
-/// The file that holds the image: its own, or that of the scene.
+/// The file that holds the image: its own file, or the file of the scene.
 std::filesystem::path GltfImages::image_path(std::uint32_t image) const {
     const std::string pointer = image_at(image) + "/uri";
     const std::optional<std::string> uri = file_.json().text(pointer);

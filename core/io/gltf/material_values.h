@@ -47,7 +47,7 @@ public:
     /// Colors of the texture that the textureInfo at `info` names, with alpha times `alpha_scale`. kNoTexture if there is
     /// no such member.
     std::uint32_t color(const std::string& info, float alpha_scale = 1.0f);
-    /// Numbers; the first channel is that of roughness, the third that of metalness.
+    /// Numbers; the first channel is roughness, the third metalness.
     std::uint32_t roughness(const std::string& info);
     /// The same image with metalness in the first channel.
     std::uint32_t metalness(const std::string& info);

@@ -25,7 +25,7 @@ struct GltfNode {
 
 struct GltfNodes {
     std::vector<GltfNode> all;
-    std::vector<std::uint32_t> shown;  ///< those of the scene that the file shows, parents before their children
+    std::vector<std::uint32_t> shown;  ///< of the scene that the file shows, parents before their children
 };
 
 /// Scales, then turns, then moves. The quaternion has a length above 0.

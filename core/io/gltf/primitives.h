@@ -29,8 +29,8 @@ struct GltfPrimitive {
 /// Reads each mesh once.
 class GltfMeshes {
 public:
-    /// `surfaces`, and materials of the scene, get those that opacities of vertices need; their last one is that of primitives without a
-    /// material.
+    /// `surfaces` and the materials of the scene get the entries that opacities of vertices need. The last surface
+    /// belongs to primitives without a material.
     GltfMeshes(GltfFile& file, std::vector<GltfSurface>& surfaces, SceneDescription& scene)
         : file_(file), surfaces_(surfaces), standard_(static_cast<std::uint32_t>(surfaces.size() - 1)),
           opacities_(file, surfaces, scene) {}

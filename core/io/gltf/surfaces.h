@@ -24,7 +24,7 @@ struct UvMapping {
     glm::vec2 scale{1.0f};
     float rotation = 0.0f;  ///< radians
 
-    /// From coordinates of the file, v downwards, to those of the renderer, v upwards.
+    /// From coordinates of the file, v downwards, to coordinates of the renderer, v upwards.
     glm::vec2 apply(glm::vec2 uv) const;
     friend bool operator==(const UvMapping&, const UvMapping&) = default;
 };
@@ -32,7 +32,7 @@ struct UvMapping {
 /// Of the textureInfo at `info`.
 UvMapping read_uv_mapping(const GltfFile& file, const std::string& info);
 
-/// The effect of the opacity of vertices, which multiplies that of the base color.
+/// The effect of the opacity of vertices, which multiplies the opacity of the base color.
 enum class VertexAlpha : std::uint32_t {
     Ignored,  ///< OPAQUE
     Scales,   ///< the opacity of the material: BLEND, and MASK by an image
@@ -50,12 +50,12 @@ struct GltfSurface {
     float least_alpha = 0.0f;  ///< VertexAlpha::Cut: least opacity of vertices at which the surface is solid
 };
 
-/// Adds the materials and images of the file to the scene. The last surface is that of triangles without a material.
+/// Adds the materials and images of the file to the scene. The last surface belongs to triangles without a material.
 std::vector<GltfSurface> read_surfaces(GltfFile& file, SceneDescription& scene);
 
-// Opacities of the vertices of glTF primitives, which multiply those of materials.
+// Opacities of the vertices of glTF primitives, which multiply the opacities of materials.
 
-/// Those of the vertices of a primitive, in [0, 1].
+/// The opacities of the vertices of a primitive, in [0, 1].
 struct OpacityRange {
     float least = 1.0f;
     float most = 1.0f;

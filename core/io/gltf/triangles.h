@@ -20,8 +20,8 @@ std::string gpu_instancing_at(std::uint32_t node);
 
 class GltfPlacements {
 public:
-    /// Nodes with a skin have one place: that of their joints. Attributes of the extension other than TRANSLATION, ROTATION and SCALE
-    /// are passed over.
+    /// Nodes with a skin have one place, the place of their joints. Attributes of the extension other than
+    /// TRANSLATION, ROTATION and SCALE are passed over.
     /// Throws Error(Input): attributes of different lengths or of wrong types, broken accessors, rotations without a length, more than
     /// kMostInstances.
     GltfPlacements(GltfFile& file, std::uint32_t number, const GltfNode& node);

@@ -28,7 +28,7 @@ MitsubaObject image_of(const MitsubaObject& adapter) {
     return {};
 }
 
-/// Multiplies the opacity by that of an adapter of the type mask.
+/// Multiplies the opacity by the opacity of an adapter of the type mask.
 void read_mask(const MitsubaObject& mask, SceneDescription& scene, MitsubaAdapters& adapters) {
     adapters.has_mask = true;
     const MitsubaObject texture = mask.property("opacity");

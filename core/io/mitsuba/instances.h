@@ -28,12 +28,13 @@ class MitsubaInstances {
 public:
     explicit MitsubaInstances(std::uint64_t most_copied_triangles) : kept_(most_copied_triangles) {}
 
-    /// Takes the triangles that the scene has so far, which come before those of the instance. `group` stays where it is.
-    /// Throws Error(Input) for more than kMostInstances or kMostShownTriangles.
+    /// Takes the triangles that the scene has so far, which come before the triangles of the instance. `group` stays
+    /// where it is. Throws Error(Input) for more than kMostInstances or kMostShownTriangles.
     void add(const MitsubaObject& instance, const MitsubaGroup& group, SceneDescription& scene);
 
-    /// Gives the scene, which has the triangles behind the last instance, those before and those of all instances.
-    /// Throws Error(Input) at an instance: more than kMostStoredTriangles or kMostStoredVertices, coordinates beyond kLargestCoordinate.
+    /// Gives the scene, which has the triangles behind the last instance, the triangles before and the triangles of
+    /// all instances. Throws Error(Input) at an instance: more than kMostStoredTriangles or kMostStoredVertices,
+    /// coordinates beyond kLargestCoordinate.
     void move_to(SceneDescription& scene);
 
 private:

@@ -77,9 +77,9 @@ RoundShapes count_round_shapes(const MitsubaFile& file) {
 
 ObjMesh sphere_mesh(std::uint32_t sides) {
     const std::uint32_t rows = sides / 2;
-    // The area is that of the sphere, so that a sphere that emits has its power. A convex body hides a quarter of its area in the mean
-    // over all directions [Cauchy 1841], so that the silhouette has the right size in the mean, too, which vertices on the sphere make
-    // too small.
+    // The mesh has the area of the sphere, so that a sphere that emits has its power. A convex body hides a quarter
+    // of its area in the mean over all directions [Cauchy 1841], so that the silhouette has the right size in the
+    // mean, too. Vertices on the sphere would make the silhouette too small.
     const double radius = std::sqrt(4.0 * glm::pi<double>() / inscribed_area(sides));
     ObjMesh mesh = empty_mesh();
     for (std::uint32_t row = 0; row <= rows; ++row) {
@@ -107,7 +107,7 @@ ObjMesh sphere_mesh(std::uint32_t sides) {
 
 ObjMesh disk_mesh(std::uint32_t sides) {
     const double turn = glm::two_pi<double>() / sides;
-    const double radius = std::sqrt(turn / std::sin(turn));  // the area is that of the disk, as of spheres
+    const double radius = std::sqrt(turn / std::sin(turn));  // the mesh has the area of the disk
     ObjMesh mesh = empty_mesh();
     mesh.positions.emplace_back(0.0f);
     for (std::uint32_t i = 0; i < sides; ++i)

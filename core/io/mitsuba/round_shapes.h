@@ -31,12 +31,13 @@ inline void add_face(ObjMesh& mesh, std::initializer_list<ObjCorner> corners) {
 
 /// Numbers of spheres and disks in a file, which decide how fine they are.
 struct RoundShapes {
-    std::size_t emitting = 0;  ///< those of groups for every instance, since they are copied
-    std::size_t others = 0;    ///< those of groups once
+    std::size_t emitting = 0;  ///< shapes of groups count for every instance, since they are copied
+    std::size_t others = 0;    ///< shapes of groups count once
 
     /// Sides of the equators of spheres, and of disks: a silhouette of 256 sides is within 0.007 % of its radius, one of 64 within 0.1 %.
-    /// Fewer for many shapes: up to a thousand together have at most 4 million triangles. Fewer for those that emit, since each triangle
-    /// is a light to choose: a picture with 20 spheres of 64 sides or with 100 takes 1.6 times as long as with 32.
+    /// Fewer for many shapes: up to a thousand together have at most 4 million triangles. Fewer for shapes that emit,
+    /// since each triangle is a light to choose: a picture with 20 spheres of 64 sides or with 100 takes 1.6 times as
+    /// long as with 32.
     std::uint32_t sides(bool emits) const;
 };
 

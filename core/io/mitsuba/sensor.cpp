@@ -44,7 +44,7 @@ struct ViewAngle {
     char axis;
 };
 
-/// Focal lengths are those of the diagonal of 36 x 24 mm. [Mitsuba 3, perspective]
+/// Focal lengths refer to the diagonal of 36 x 24 mm. [Mitsuba 3, perspective]
 ViewAngle angle_of(const MitsubaObject& sensor, double aspect) {
     const auto fov = sensor.number("fov");
     std::string focal = sensor.text("focal_length").value_or("50mm");

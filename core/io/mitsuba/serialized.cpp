@@ -79,7 +79,7 @@ std::string unpacked(std::string_view packed, std::size_t most, const Bytes& fil
     constexpr std::size_t kLargestStoredBlock = 65535;
     const auto size = static_cast<int>(std::min<std::size_t>(packed.size(), std::numeric_limits<int>::max()));
     std::string bytes(most + kLargestStoredBlock, '\0');
-    // A failure without a reason leaves that of an earlier one, which must not be the limit.
+    // A failure without a reason leaves the reason of an earlier failure, which must not be the limit.
     ::stbi_zlib_decode_buffer(bytes.data(), 0, "", 0);
     const int got = ::stbi_zlib_decode_buffer(bytes.data(), static_cast<int>(bytes.size()), packed.data(), size);
     if (got < 0 && stb_failure() != "output buffer limit") file.fail("expected a compressed mesh, got a damaged one");

@@ -109,7 +109,7 @@ std::vector<glm::vec3> shown_colors(const MitsubaObject& shape, std::vector<glm:
     return colors;
 }
 
-/// Normals as Mitsuba has them: none, those of the file, or those of a smooth surface.
+/// Normals as Mitsuba has them: none, the normals of the file, or normals of a smooth surface.
 void settle_normals(bool is_flat, ObjMesh& mesh) {
     for (ObjFaces& part : mesh.parts) {
         for (ObjFaces::Run& run : part.runs) run.smoothing = is_flat ? Smoothing::Off : Smoothing::On;

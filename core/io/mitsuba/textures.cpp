@@ -70,7 +70,8 @@ TextureDescription checkerboard(const MitsubaObject& texture, const SceneDescrip
     return image;
 }
 
-/// Adds an image with the luminance of a bitmap in one channel. Without `raw` values are decoded from sRGB, as those of colors.
+/// Adds an image with the luminance of a bitmap in one channel. Without `raw` the values are decoded from sRGB, as
+/// for colors.
 std::uint32_t add_luminance(const MitsubaObject& bitmap, TextureContent content, float glm::vec4::*channel,
                             SceneDescription& scene) {
     const std::filesystem::path path = bitmap.file("filename");
@@ -120,7 +121,8 @@ struct PlaceScales {
     }
 };
 
-/// Of the direct triangles, and of those of each mesh behind them. Scales that are not uniform count by their mean.
+/// Scales of the direct triangles and, behind them, of the triangles of each mesh. Scales that are not uniform count
+/// by their mean.
 std::vector<PlaceScales> place_scales(const SceneDescription& scene) {
     std::vector<PlaceScales> scales(1 + scene.meshes.size());
     scales.front().add(1.0);

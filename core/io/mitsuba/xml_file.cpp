@@ -27,7 +27,7 @@ constexpr std::array<std::string_view, 22> kPassedOver = {
     "attach_log",   "fast_math",        "format",          "accel",
     "cache",        "mis_compensation", "shading_samples", "emitter_samples",
     "bsdf_samples", "collapse"};
-/// Likewise of objects; phase functions are those of media that scatter nothing.
+/// Objects that decide nothing that a picture shows; phase functions belong to media that scatter nothing.
 constexpr std::array<std::string_view, 3> kObjectsWithoutEffect = {"sampler", "rfilter", "phase"};
 
 bool is_of_name(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }

@@ -90,13 +90,14 @@ private:
     const MitsubaText* text_ = nullptr;
 };
 
-/// The objects of a scene in the order of the file, those of included files in the place of their `include`.
+/// The objects of a scene in the order of the file, the objects of included files in the place of their `include`.
 class MitsubaFile {
 public:
     using Parameters = std::vector<std::pair<std::string, std::string>>;
 
-    /// `given`: values of $parameters, before those of `default` elements. Throws Error(Input): no XML, no `scene`, includes that are
-    /// outside of the folder, in a circle or more than kMostIncludes; Error(Usage) for a given parameter that no file mentions.
+    /// `given`: values of $parameters, before the values of `default` elements. Throws Error(Input): no XML, no
+    /// `scene`, includes that are outside of the folder, in a circle or more than kMostIncludes; Error(Usage) for a
+    /// given parameter that no file mentions.
     explicit MitsubaFile(const std::filesystem::path& path, const Parameters& given = {});
     ~MitsubaFile();
     MitsubaFile(const MitsubaFile&) = delete;
@@ -134,7 +135,7 @@ std::string mitsuba_name(const std::string& name);
 struct MitsubaShared {
     std::filesystem::path folder;  ///< of the scene
     std::vector<std::filesystem::path>
-        others;  ///< those of `path` elements, which are searched first, the last one first of all
+        others;  ///< of `path` elements, which are searched first, the last one first of all
     std::map<std::string, std::string> parameters;
     std::map<std::string, MitsubaObject> ids;
     std::map<std::string, std::string> aliases;  ///< other names of ids

@@ -74,7 +74,7 @@ SkyModel::SkyModel(const SkyDescription& sky)
     : sky_(sky),
       elevation_(std::asin(std::clamp(glm::dot(glm::dvec3(sky.sun_direction), glm::dvec3(sky.up)), -1.0, 1.0))) {
     if (elevation_ < 0.0) return;
-    // W m^-2 sr^-1 of the whole sensitivity of the eye, which is 106.75 nm wide, to those of a nanometer.
+    // From W m^-2 sr^-1 of the whole sensitivity of the eye, which is 106.75 nm wide, to W m^-2 sr^-1 of a nanometer.
     constexpr double kPerNanometer = 1.0 / 106.7502594;
     for (std::size_t channel = 0; channel < data::kChannels; ++channel) {
         for (std::size_t i = 0; i < data::kParameters; ++i)
