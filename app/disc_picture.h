@@ -66,8 +66,8 @@ std::vector<std::string> hemisphere_lines(const VolumeInspection& volume, const 
 
 // The learned hemisphere of a radiance volume beside the light that reaches it, as a picture and as text.
 
-/// Learned beside true radiance, on one scale; below them the density that leaves no variance beside that of guided paths, on one
-/// scale, both relative to cosine sampling.
+/// Learned beside true radiance, on one scale; below them the density that leaves no variance beside the density of
+/// guided paths, on one scale, both relative to cosine sampling.
 ByteImage draw_truth(const VolumeInspection& volume, const LightReport& truth, const CameraDescription& camera,
                      const std::string& title);
 

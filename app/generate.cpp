@@ -34,7 +34,8 @@ std::vector<TakenOption> options_of(Command command) {
     return options;
 }
 
-/// The words that an option takes: those that its parser names when it is given none of them, and those of "on|off".
+/// The words that an option takes: the words that its parser names when it is given none of them, and the words of
+/// "on|off".
 std::vector<std::string> words_of(const OptionSpec& spec) {
     if (spec.value.starts_with("NAME")) {
         try {

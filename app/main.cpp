@@ -52,7 +52,8 @@ int run_guarded(const std::vector<std::string>& arguments, Console& console) {
     }
 }
 
-/// The job of mpirun; empty without one, or if this program cannot take part in it: then `code` is that of the error.
+/// The job of mpirun; empty without one, or if this program cannot take part in it: then `code` is the exit code of
+/// the error.
 std::unique_ptr<Communicator> join(Console& console, int& code) {
     try {
         choose_device();

@@ -92,7 +92,7 @@ struct Options {
     ImageKind frame_kind = ImageKind::Png;  ///< replay
 
     std::vector<MethodId> methods;       ///< bench: all to compare; empty: every one
-    std::vector<Representation> fields;  ///< bench: all to compare; empty: that of each scene's settings
+    std::vector<Representation> fields;  ///< bench: all to compare; empty: as in each scene's settings
     std::vector<std::string> backends;   ///< bench: empty: all that are available
     int seeds = 10;                      ///< bench: runs of each method, back end and scene
     std::uint32_t reference_spp = 4096;  ///< bench: samples per pixel in each half of references that it makes
@@ -100,7 +100,7 @@ struct Options {
     std::string gate;                    ///< bench: earlier results to compare the new ones with
     double tolerance_percent = 10.0;     ///< bench: slowdown against the gate's results that passes
     std::string suite{kNoPreset};        ///< bench: of scenes
-    std::string scenes_folder;           ///< bench: that of the suite
+    std::string scenes_folder;           ///< bench: of the suite
     std::string protocol{kNoPreset};     ///< bench: preset of options
     bool quick = false;                  ///< bench: preset of a short bench
     bool effects = false;                ///< bench: compare kernels instead of methods

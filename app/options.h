@@ -29,7 +29,7 @@ struct CommandLine {
 /// nearest known one), a wrong value or a missing argument; Error(Input) for the camera file.
 CommandLine parse_command_line(const std::vector<std::string>& arguments);
 
-/// An option that the parser of a subcommand knows besides those of the table.
+/// An option that the parser of a subcommand knows besides the options of the table.
 struct ParserFlag {
     std::string flags;  ///< all spellings: "-h,--help"
     std::string help;

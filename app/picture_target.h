@@ -28,7 +28,7 @@ void write_picture(const std::string& output, const Snapshot& snapshot, const Di
 
 // The settings and statistics that pictures carry.
 
-/// `stats` are those of stats_json(), `command` repeats the picture in a shell.
+/// `stats` come from stats_json(), `command` repeats the picture in a shell.
 ImageMetadata metadata_of(const Session& session, const Snapshot& snapshot, const Json& stats,
                           const std::string& command, bool interrupted);
 

@@ -21,7 +21,7 @@ std::string_view name_of(EndedBy end);
 
 struct RunOutcome {
     EndedBy ended_by = EndedBy::Nothing;
-    double seconds = 0.0;  ///< wall clock of the loop, with that of the run that it resumes
+    double seconds = 0.0;  ///< wall clock of the loop, including the run that it resumes
 
     bool interrupted() const { return ended_by == EndedBy::Interruption; }
 };

@@ -35,7 +35,7 @@ class FieldPast {
 public:
     FieldPast();
     ~FieldPast();
-    /// The number of passes for a key frame after that of `passes`.
+    /// The number of passes for the key frame after the key frame of `passes`.
     static std::uint32_t next(std::uint32_t passes);
     /// After each piece of work.
     void observe(const Session& session, MethodId method);

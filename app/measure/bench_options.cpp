@@ -23,7 +23,7 @@ Json options_json(const Options& options) {
     return json;
 }
 
-/// The name of a scene's file; of a file named "scene", as those of Mitsuba are, the name of its folder.
+/// The name of a scene's file; of a file named "scene", as files of Mitsuba are, the name of its folder.
 std::string scene_name(const std::filesystem::path& file) {
     const std::string stem = file.stem().string();
     const std::string folder = std::filesystem::absolute(file).parent_path().filename().string();
