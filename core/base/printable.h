@@ -6,8 +6,8 @@
 
 namespace pl {
 
-/// The text in UTF-8 with U+FFFD in the place of control characters other than line feed and tab, those of ISO 6429 beyond
-/// ASCII included, and of bytes that are no UTF-8.
+/// The text in UTF-8 with U+FFFD in the place of control characters other than line feed and tab, also control
+/// characters of ISO 6429 beyond ASCII, and in the place of bytes that are no UTF-8.
 std::string printable(std::string_view text);
 
 /// A field of CSV that spreadsheets do not take for a formula. [RFC 4180]

@@ -19,8 +19,8 @@ double share_done(const Session& session, FilmSlot slot, const RunLimits& limits
     return std::min(share, 1.0);
 }
 
-/// Of a run, by its limits of time and, where a reference tells the speed of `default`, of samples: those of methods that learn take
-/// longer. Empty if neither is known.
+/// Seconds of a run, by its limit of time and, where a reference tells the speed of `default`, by its limit of
+/// samples: samples of methods that learn take longer. Empty if neither is known.
 std::optional<double> expected_seconds(const BenchScene& scene) {
     std::optional<double> seconds = scene.limits.seconds;
     if (scene.limits.target_error || !scene.reference) return seconds;

@@ -55,7 +55,7 @@ public:
     /// Throws Error(Input) if a reference folder is given and lacks one.
     Bench(BenchSettings settings, BenchObserver observer);
 
-    /// Continues after the folder's earlier runs. When stopped, the results are those of the finished runs, and
+    /// Continues after the folder's earlier runs. When stopped, the results hold the finished runs, and are
     /// incomplete. Throws Error(Usage) if the folder holds a bench of another plan.
     BenchResults run();
 

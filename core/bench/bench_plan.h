@@ -65,7 +65,8 @@ struct BenchScene {
     std::shared_ptr<const Reference> reference;  ///< null until found or made
 };
 
-/// A compared method: with a representation of its own if several are compared, else with that of the scene's settings.
+/// A compared method: with a representation of its own if several are compared, else with the representation of the
+/// scene's settings.
 struct BenchMethod {
     std::string name;
     MethodId method = MethodId::Default;

@@ -16,7 +16,7 @@ struct EffectCost {
     std::string kernel;
     std::vector<std::string> effects;  ///< that the kernel is compiled for
     bool is_needed = false;            ///< the kernel that serves the scene; the other ones are larger
-    Interval ratio;                    ///< of its time to that of the needed kernel
+    Interval ratio;                    ///< of its time to the time of the needed kernel
     double nanoseconds = 0.0;          ///< per segment, of the fastest turn
 
     /// "none", "mirrors, glass".

@@ -7,7 +7,7 @@
 
 namespace pl::bench {
 
-// Clocks as JSON: one list for all exports, whose names are those of Clocks.
+// Clocks as JSON: one list for all exports, with the names of Clocks.
 
 /// Seconds by clock; `sums` come behind them.
 Json clocks_json(const Clocks& clocks, const Json& sums);

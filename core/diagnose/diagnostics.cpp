@@ -68,7 +68,7 @@ std::string summary_of(const DiagnosticsMap& map) {
 
 namespace {
 
-/// Targets depend on the present field, which differs too much from that of older passes.
+/// Targets depend on the present field, which differs too much from the field of older passes.
 constexpr std::uint32_t kPassesForClamped = 16;
 
 /// A map with the data that the film holds: counts and invalid samples.

@@ -111,8 +111,9 @@ private:
     std::array<Sums, kJackknifeGroups> groups_{};
 };
 
-/// Gain of a method at this pixel, path by path: variances and processor time of its paths against those of the baseline. The jackknife
-/// leaves out the same groups of both. Empty if one of the two has no variance.
+/// Gain of a method at this pixel, path by path: variance and processor time of its paths against variance and
+/// processor time of the baseline's paths. The jackknife leaves out the same groups of both. Empty if one of the two
+/// has no variance.
 std::optional<Gain> pixel_gain(const NoiseSums& base, const NoiseSums& method);
 
 // "Why this pixel?": the noise of a pixel by technique and bounce, and the gain of guidance there, by paths of both methods in turns.
@@ -127,7 +128,7 @@ struct PixelNoise {
 };
 
 /// Traces paths of one pixel that belong to no pass of the picture, so that they are independent of it and of what the field has
-/// learned. The field is that of the replay. The same paths give the same figures, but for their time.
+/// learned. The field comes from the replay. The same paths give the same figures, except their time.
 class PixelNoiseTracer {
 public:
     PixelNoiseTracer(PassPair passes, std::uint32_t pixel);

@@ -10,7 +10,7 @@ namespace {
 /// Samples directions as every guided method does; counts clamped training samples instead of adding them to the field.
 template <GuidingField Field>
 struct CountingMethod : Guided<Field, ExpectedSarsa> {
-    std::uint32_t* clamped = nullptr;  ///< null where training samples differ from those of the pass
+    std::uint32_t* clamped = nullptr;  ///< null where training samples differ from the samples of the pass
 
     void record(const TrainingSample<Field>& sample) const {
         if (clamped == nullptr || !sample.entry.is_trained()) return;

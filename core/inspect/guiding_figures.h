@@ -14,7 +14,7 @@ namespace pl {
 /// The part of incident radiance that a method's targets contain.
 enum class TargetLight {
     All,          ///< all of it
-    LeftByPaths,  ///< without that of light samples, which the guided mixture leaves to them by multiple importance sampling
+    LeftByPaths,  ///< without what the guided mixture leaves to light samples by multiple importance sampling
     LeftByProbes  ///< the same with cosine sampling in place of the mixture
 };
 TargetLight target_light(const RenderSettings& settings, MethodId method);
@@ -33,10 +33,10 @@ struct TrueLight {
 };
 
 struct GuidingFigures {
-    Interval table;    ///< Kullback-Leibler divergence of the learned probabilities from those of the target, nats
-    Interval mixture;  ///< that of mixture_shares() from the probabilities of the product, nats
-    /// Variance of one direction's estimate of the reflected target by the mixture, over that by BSDF sampling; empty where BSDF
-    /// sampling has no variance beyond its own error.
+    Interval table;    ///< Kullback-Leibler divergence of the learned probabilities from the target's, nats
+    Interval mixture;  ///< divergence of mixture_shares() from the probabilities of the product, nats
+    /// Variance of one direction's estimate of the reflected target by the mixture, over the variance by BSDF
+    /// sampling; empty where BSDF sampling has no variance beyond its own error.
     std::optional<Interval> variance_factor;
 };
 

@@ -33,9 +33,11 @@ public:
 
     const LightReceiver& receiver() const { return receiver_; }
 
-    /// rms() of pi f(wo, wi) L, delta lobes left out: its mean over a cell is that of f L over cosine-weighted directions.
+    /// rms() of pi f(wo, wi) L, delta lobes left out: its mean over a cell is the mean of f L over cosine-weighted
+    /// directions.
     float reflected(Vec3f wi, Vec3f radiance) const;
-    /// Density of sampling wi, delta lobes left out, relative to that of cosine sampling around the volume's normal.
+    /// Density of sampling wi, delta lobes left out, relative to the density of cosine sampling around the volume's
+    /// normal.
     float pdf(Vec3f wi) const;
     /// Probability that no delta lobe is sampled.
     float guided_share() const { return 1.0f - bsdf_.delta_probability(); }
@@ -48,8 +50,8 @@ private:
     Bsdf<kEveryFeature> bsdf_;
 };
 
-/// Paths are dealt to this many groups in turn. Groups are independent of each other and alike, so their spread gives intervals,
-/// and those of even and of odd number are two independent halves.
+/// Paths are dealt to this many groups in turn. Groups are independent of each other and alike, so their spread gives
+/// intervals, and the groups of even and of odd number are two independent halves.
 inline constexpr int kLightGroups = 32;
 
 /// Light from a source that light sampling finds, too: its weight in a target depends on densities, so it is kept apart.
@@ -57,10 +59,10 @@ struct SampledEmission {
     std::uint32_t cell = 0;
     std::uint32_t group = 0;
     std::uint32_t fine_cell = 0;  ///< of VolumeInspection::density
-    float light_pdf = 0.0f;       ///< density of light sampling, relative to that of cosine sampling
-    float bsdf_pdf = 0.0f;        ///< the same of BSDF sampling
+    float light_pdf = 0.0f;       ///< density of light sampling, relative to cosine sampling
+    float bsdf_pdf = 0.0f;        ///< density of BSDF sampling, relative to cosine sampling
     float radiance = 0.0f;        ///< rms() of its channels
-    float reflected = 0.0f;       ///< pi f L, likewise: the part reflected towards wo
+    float reflected = 0.0f;       ///< rms() of the channels of pi f L: the part reflected towards wo
 };
 
 /// The paths so far. Arrays are [group][cell]; sums over paths of rms() of their channels.

@@ -20,7 +20,7 @@ std::vector<double> numbers_of(std::span<const RunEnd> runs, Number number) {
     return values;
 }
 
-/// The time from which on the mean error of `method` stays below that of `base`.
+/// The time from which on the mean error of `method` stays below the mean error of `base`.
 std::optional<double> ahead_from(std::span<const Curve> base, std::span<const Curve> method, const CostRange& range) {
     std::optional<double> since;
     const std::vector<double> times = log_spaced(range.first, range.last, 200);

@@ -26,7 +26,7 @@ struct RunEnd {
 
 /// Ratios above 1 are in favor of the method.
 struct Gain {
-    Interval samples;      ///< samples of the baseline over those of the method, for the same error
+    Interval samples;      ///< samples of the baseline over samples of the method, for the same error
     Interval cost;         ///< cost of a sample, baseline over method; mostly below 1
     Interval net;          ///< time to the same error, baseline over method: the product of both
     std::size_t runs = 0;  ///< of the side with fewer
@@ -81,15 +81,16 @@ struct TimedHalves {
     double seconds = 0.0;  ///< charged
 };
 
-/// Gains in the time to the same noise, baseline over method: squared noise times seconds of the one over those of the other. The time is
-/// that of the whole picture, since all tiles get the same samples.
+/// Gains in the time to the same noise, baseline over method: squared noise times seconds of the baseline over
+/// squared noise times seconds of the method. The time covers the whole picture, since all tiles get the same
+/// samples.
 struct TileGains {
     int columns = 0;
     int rows = 0;
     std::vector<Interval> tiles;  ///< [row][column]
     Interval picture;
 
-    /// The first pixel of column `i` of tiles in a picture of this width; likewise of rows.
+    /// The first pixel of the `i`-th of `count` columns or rows of tiles, along an axis of `size` pixels.
     static int edge(int i, int count, int size) { return i * size / count; }
 };
 
@@ -97,9 +98,9 @@ struct TileGains {
 inline constexpr int kMostTiles = 8;
 inline constexpr int kFewestTilePixels = 16;
 
-/// Noise is that of estimate_noise(), relative to the mean of the surrounding pixels in both pictures together. Intervals are of the
-/// jackknife over 32 interleaved sets of pixels: of these two pictures, whatever other seeds would have taught. Throws Error(Input) if
-/// sizes differ or `width` does not divide them.
+/// Noise comes from estimate_noise(), relative to the mean of the surrounding pixels in both pictures together.
+/// Intervals are of the jackknife over 32 interleaved sets of pixels: of these two pictures, whatever other seeds
+/// would have taught. Throws Error(Input) if sizes differ or `width` does not divide them.
 TileGains tile_gains(const TimedHalves& base, const TimedHalves& method, int width);
 
 /// The mark of a verdict: "gains", "loses", "no difference", "undecided".

@@ -20,9 +20,10 @@ struct HalfShares {
 
     explicit HalfShares(const PictureHalves& halves)
         : first(halves.first_weight / (halves.first_weight + halves.second_weight)), second(1.0 - first) {}
-    /// Value of a pixel from those of its halves.
+    /// Value of a pixel from the values of its halves.
     Vec3d mean(const Vec3d& a, const Vec3d& b) const { return first * a + second * b; }
-    /// Estimate of the variance of mean(), unbiased if those of the halves are as 1 / weight: (a-b)^2 / 4 for equal halves.
+    /// Estimate of the variance of mean(), unbiased if the variances of the halves are as 1 / weight: (a-b)^2 / 4 for
+    /// equal halves.
     Vec3d variance(const Vec3d& a, const Vec3d& b) const { return first * second * (a - b) * (a - b); }
 };
 
@@ -56,9 +57,9 @@ struct ErrorParts {
     std::size_t invalid = 0;  ///< pixels that are not finite in a half of the picture or of the reference
 };
 
-/// Standard errors are those of means over blocks of kBlockSide x kBlockSide pixels, because neighboring pixels share
-/// learned radiance. For one run they are too small where many pixels share a volume: the true ones need several
-/// seeds. Throws Error(Input) if sizes differ or `width` does not divide them.
+/// Standard errors are taken from means over blocks of kBlockSide x kBlockSide pixels, because neighboring pixels
+/// share learned radiance. For one run they are too small where many pixels share a volume: the true ones need
+/// several seeds. Throws Error(Input) if sizes differ or `width` does not divide them.
 ErrorParts take_apart(const PictureHalves& picture, const PictureHalves& reference, int width, int threads = 1);
 inline constexpr int kBlockSide = 16;
 

@@ -21,7 +21,7 @@ constexpr double kRenewedAfter = 1.25;
 /// Between points: twelve per decade.
 const double kPointRatio = std::pow(10.0, 1.0 / 12.0);
 
-/// Clocks of this film alone: those of a warm film exclude placement and precomputation of earlier films.
+/// Clocks of this film alone: the clocks of a warm film exclude placement and precomputation of earlier films.
 Clocks own_clocks(Clocks clocks, const FilmOrigin& origin) {
     if (!origin.warm) return clocks;
     clocks.place = std::max(clocks.place - origin.place_seconds, 0.0);
