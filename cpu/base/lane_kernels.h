@@ -82,8 +82,8 @@ struct LaneKernels {
     /// contributions, one per path of the block; null: PathState::survival.
     void (*play_roulette)(const PathSettings& settings, const BlockRows& block, const float* estimates,
                           BlockBits& continuing);
-    /// Sends paths of a block into their directions, see scatter_lambert(). `lit`: at entry these paths, at return the ones
-    /// whose directions have a weight above 0. Rays and densities of the other paths are then arbitrary.
+    /// Sends paths of a block into their directions, see scatter_lambert(). `lit`: at entry these paths, at return
+    /// the paths whose directions have a weight above 0. Rays and densities of the other paths are then arbitrary.
     void (*scatter_paths)(const BlockRows& block, const DirectionGroup* directions, RayGroup* rays, BlockBits& lit);
     /// Appends the shadow rays of a block's light samples to the `count` rays of a batch, whose t_max is 1, and returns the number of
     /// rays then. `lit`: comes in as the paths that have light samples, and leaves as those that have shadow rays, whose contributions

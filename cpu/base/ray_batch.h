@@ -103,7 +103,7 @@ private:
     std::vector<OcclusionMask> occluded_;
 };
 
-/// Intersects the first `count` rays of a batch. Results equal those of an Intersector for each single ray.
+/// Intersects the first `count` rays of a batch. Results equal the results of an Intersector for each single ray.
 template <class T>
 concept BatchIntersector = requires(const T& intersector, RayBatch& batch, std::uint32_t count) {
     { intersector.find_closest(batch, count) } -> std::same_as<void>;
@@ -119,7 +119,7 @@ struct DenseTriangle {
 };
 
 /// A small scene as plain pointers: files compiled for one instruction set must not instantiate inline functions of
-/// containers, which the linker would merge with those of other files.
+/// containers, which the linker would merge with the inline functions of other files.
 struct DenseView {
     const Vec3f* positions;  ///< without duplicates
     std::uint32_t position_count;

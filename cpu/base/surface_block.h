@@ -16,7 +16,7 @@ class SurfaceBlock {
 public:
     explicit SurfaceBlock(const LaneKernels& kernels = best_lane_kernels()) : kernels_(kernels) {}
 
-    /// Finds those of rays [first, end); `first` is a multiple of kGroupSize. `rows`: of the scene.
+    /// Finds the surface points of rays [first, end); `first` is a multiple of kGroupSize. `rows`: of the scene.
     void find(const SceneView& scene, const PlacementRows& rows, const RayBatch& rays, std::uint32_t first,
               std::uint32_t end) {
         first_ = first;

@@ -43,7 +43,8 @@ public:
     /// `kTargets`: has_targets().
     template <bool kTargets>
     PL_INLINE void find_closest(HitGroup& hits, std::uint32_t first) const {
-        // Triangles come in ascending order, so that of equal distances the first is the closest; nothing is closer than NaN.
+        // Triangles come in ascending order, so the first of several equal distances is the closest; nothing is
+        // closer than NaN.
         LaneFloat best_t = broadcast(kNan);
         LaneUint best_primitive = broadcast(kNoPrimitive);
         LaneFloat best_v{}, best_w{};

@@ -28,7 +28,7 @@ template <int kUpper>
 constexpr int interleaved(int i) {
     return (i & ~3) + 2 * kUpper + ((i & 3) >> 1) + (i & 1) * static_cast<int>(kLaneWidth);
 }
-/// In each block of 2 * kSize lanes: the first (kUpper = 0) or last kSize of `a`, then those of `b`.
+/// In each block of 2 * kSize lanes: the first (kUpper = 0) or last kSize lanes of `a`, then of `b`.
 template <int kSize, int kUpper>
 constexpr int joined(int i) {
     const int in_block = i & (2 * kSize - 1);

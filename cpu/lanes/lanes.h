@@ -103,7 +103,7 @@ using ByteLanes = __m256i;
 PL_INLINE ByteLanes shuffle_bytes(ByteLanes bytes, ByteLanes order) { return _mm256_shuffle_epi8(bytes, order); }
 #endif
 #if defined(__AVX2__)
-/// The bits of each lane in reverse order: those of each half byte by a table, and the bytes by a shuffle.
+/// The bits of each lane in reverse order: the bits of each half byte by a table, and the bytes by a shuffle.
 PL_INLINE LaneUint reversed_lanes(const LaneUint& lanes) {
     constexpr std::uint32_t kHalfBytes = 0x0f0f0f0fu;
     // Bytes 0 to 15, repeated: the reverse of their number in the upper and in the lower half of a byte; 3, 2, 1, 0, 7, 6, 5, 4, ...

@@ -125,8 +125,8 @@ public:
                  {}},
           first_axis_(group.first_axis[lane]) {}
 
-    /// `leaves`: BvhView::triangles or blocks. `placing` takes the rows of corners, and numbers of triangles, from those
-    /// stored to those of the scene.
+    /// `leaves`: BvhView::triangles or blocks. `placing` takes stored rows of corners, and stored numbers of
+    /// triangles, to the rows and numbers of the scene.
     template <class Stored, class Placing = AsStored>
     PL_INLINE bool find(const Stored* leaves, WideReference leaf, const ExcludedPair& excluded, Hit& best,
                         const Placing& placing = {}) const {

@@ -175,7 +175,8 @@ public:
     }
 
 private:
-    /// Decides which lanes the learned choice leads. Returns the roots of their clusters, and that of the tree for others.
+    /// Decides which lanes the learned choice leads. Returns the roots of their clusters, and the root of the tree
+    /// for other lanes.
     PL_INLINE LaneInt choose_cluster() {
         WayByNumberOf<Lanes> way = way_;
         by_learned_ = has_learned_ & way.takes_second(broadcast(kTreeShare));
@@ -231,7 +232,8 @@ private:
     LaneFloat of_cluster_;  ///< probability of reaching the cluster of the light
 };
 
-/// Vectors of up to kBlockGroups groups in turn: a level of one is a long chain of operations, and those of others overlap with it.
+/// Vectors of up to kBlockGroups groups in turn: a level of one vector is a long chain of operations, which the
+/// operations of other vectors overlap.
 template <class Descent>
 class DescentsInTurn {
 public:

@@ -39,7 +39,7 @@ void multiply(const MatrixProduct& p) {
         for (std::uint32_t row = 0; row < p.rows; row += kRowBlock) multiply_block(p, row, column);
 }
 
-/// e^x of |x| <= kMostLogarithm, beyond it that of the limit. Relative error below 1e-6.
+/// e^x of |x| <= kMostLogarithm, beyond it the value at the limit. Relative error below 1e-6.
 PL_INLINE LaneFloat exponential(const LaneFloat& x) {
     constexpr float kMostLogarithm = 20.0f;
     constexpr float kLog2E = 1.44269504f;

@@ -16,8 +16,8 @@ public:
           vertices_(rows.block.vertices[group]), guided_(rows.guided[group]), values_(rows.values[group]),
           open_(rows.open[group]), served_(lanes_of(rows.served.groups[group])) {}
 
-    /// The values of the volumes, and what directions there are sampled by, at vertices that may have a volume. Marks those that have one,
-    /// and those of them whose volume has no known node.
+    /// The values of the volumes, and what directions there are sampled by, at vertices that may have a volume. Marks
+    /// the vertices that have a volume, and among these the vertices whose volume has no known node.
     PL_INLINE void look_up(const VolumeRows& field, BlockBits& with_volume, BlockBits& unknown) const {
         const LaneInt served = served_ & (integers(points_.volume) >= 0);
         const LaneInt volume = select(served, integers(points_.volume), LaneInt{});

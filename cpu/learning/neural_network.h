@@ -40,8 +40,8 @@ public:
     /// Fills the block's units for these points, at most kNetworkBlock of them.
     void predict(std::span<const NetworkPoint> points, NetworkBlock& block) const;
 
-    /// From block.output_slopes: the slopes by the weights of the layers into `slopes`, from kFirstLayer on, and
-    /// those by the inputs into the block. The block is that of the last predict().
+    /// From block.output_slopes: the slopes by the weights of the layers into `slopes`, from kFirstLayer on, and the
+    /// slopes by the inputs into the block. The block comes from the last predict().
     void propagate(NetworkBlock& block, float* slopes) const;
 
     /// Adds the slopes by the features of the grids at these points.
@@ -65,8 +65,9 @@ struct TaughtLight {
 ///
 /// Times the cosine's lobe, exp(k_c (n w - 1)), a lobe of concentration k and mean m has the density exp(b + v w) with v = k m + k_c n,
 /// whose integral is exp(b + A(|v|)), A(k) = ln(4 pi sinh(k) / k), and A' is the mean cosine r. So the slope of -ln q by b is the
-/// share of the lobe in the mixture minus its responsibility, and that by v is the same difference of mean directions: those of an
-/// exponential family.   [Bishop 2006, "Pattern Recognition and Machine Learning", 2.4 and 9.3]
+/// share of the lobe in the mixture minus its responsibility, and the slope by v is the same difference of mean
+/// directions, as for every exponential family.   [Bishop 2006, "Pattern Recognition and Machine Learning", 2.4 and
+/// 9.3]
 float mixture_slopes(const LaneKernels& kernels, const TaughtLight& light, const float* outputs, float scale,
                      float* slopes);
 

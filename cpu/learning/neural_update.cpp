@@ -12,7 +12,7 @@ constexpr DescentSettings kDescent{.batch = 256, .rate = 0.01, .decay = 300.0};
 constexpr std::uint32_t kFewestSteps = 16;
 constexpr std::uint32_t kMostSteps = 40;
 
-/// Training samples of a volume by which its loss counts half of that of a volume with many.
+/// Training samples of a volume by which its loss counts half as much as the loss of a volume with many.
 constexpr float kHalfVisits = 64.0f;
 
 /// Least sum of a table's probabilities above their uniform floor that teaches: of rounding, if all is floor.

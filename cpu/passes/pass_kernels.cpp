@@ -1,4 +1,4 @@
-// The kernels of all passes but those of pictures.
+// The kernels of all passes except passes of pictures.
 #include "cpu/passes/pass_kernels.h"
 
 #include <span>

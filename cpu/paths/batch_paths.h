@@ -263,7 +263,7 @@ struct Paths {
     bool samples_lights() const { return F.has(Feature::NextEventEstimation) && setup.path.next_event != 0; }
     /// Points of instances are made, and their volumes found, path by path.
     bool can_look_ahead() const { return !shows_instances<F>(setup.scene); }
-    /// The lookups of the block of path i, while those of the next one are under way.
+    /// The lookups of the block of path i, while the lookups of the next block are under way.
     auto& lookups_of(std::uint32_t i) requires(TableGuided<M>) { return guided.lookups[i / kPathBlock % 2]; }
     StepOutput<M> output(typename M::Sample& sample) { return {sample, counters.path}; }
 

@@ -8,7 +8,7 @@
 
 namespace pl {
 
-/// Methods whose directions at Lambert reflectors are those of DefaultMethod.
+/// Methods that sample directions at Lambert reflectors as DefaultMethod does.
 template <class M>
 concept LambertSampled = Method<M> &&(std::same_as<M, DefaultMethod> || std::same_as<M, ProbeMethod>);
 

@@ -148,13 +148,13 @@ private:
                                        samples_, block.group_count());
         }
     }
-    /// Whether the sample of vertex i is that of the far lights that was made in lanes.
+    /// Whether the light sample of vertex i is a sample of the far lights that was made in lanes.
     bool is_far_in_lanes([[maybe_unused]] const auto& block, [[maybe_unused]] std::uint32_t i) const {
         if constexpr (F.has(Feature::EnvironmentMap))
             return far_lights_are_in_lanes() && block.light_uniforms(i).w < context_.scene.far_probability;
         return false;
     }
-    /// Whether the sample of vertex i is that of an emissive triangle that was made in lanes.
+    /// Whether the light sample of vertex i is a sample of an emissive triangle that was made in lanes.
     bool is_triangle_in_lanes(const auto& block, std::uint32_t i) const {
         return lanes_pay() && !is_far_in_lanes(block, i);
     }

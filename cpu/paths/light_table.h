@@ -68,7 +68,7 @@ private:
 
     std::vector<LightRecord> records_;
     std::vector<Emitters> emitters_;
-    std::uint32_t triangles_ = 0;  ///< those of instances emit nothing
+    std::uint32_t triangles_ = 0;  ///< triangles of instances emit nothing
 };
 
 }  // namespace pl

@@ -84,7 +84,7 @@ struct PassSetup {
     SceneView scene;
     const LightTable* lights = nullptr;  ///< of the scene; without them lights are sampled path by path
     PathSettings path;
-    IndexRange paths{0, kToTheLast};  ///< numbers of the paths to trace, clamped to those of the pass
+    IndexRange paths{0, kToTheLast};  ///< numbers of the paths to trace, clamped to the paths of the pass
     const StopFlag* stop = nullptr;
     int threads = 1;
     std::uint32_t batch_paths = 1024;

@@ -17,8 +17,9 @@
 namespace pl {
 
 /// Intersects a vector of rays with every triangle of a small scene. Up to about 64 triangles this is faster than any hierarchy: without
-/// traversal the rays do not diverge, so vectors are always full. Satisfies BatchIntersector. Hits are bit-identical to those of intersect_triangle on every triangle in ascending
-/// order, for every instruction set. Omits triangles with two coincident corners, which no ray can hit.
+/// traversal the rays do not diverge, so vectors are always full. Satisfies BatchIntersector. Hits are bit-identical
+/// to the hits of intersect_triangle on every triangle in ascending order, for every instruction set. Omits triangles
+/// with two coincident corners, which no ray can hit.
 class DenseIntersector {
 public:
     static constexpr std::string_view kName = "dense";
@@ -47,7 +48,7 @@ private:
 static_assert(BatchIntersector<DenseIntersector>);
 
 /// Intersects rays with scenes of any size by a hierarchy of eight children per node, several rays in turn if it is large. Satisfies
-/// BatchIntersector. Hits are bit-identical to those of BvhIntersector, for every instruction set. Leaves of large
+/// BatchIntersector. Hits are bit-identical to the hits of BvhIntersector, for every instruction set. Leaves of large
 /// scenes are the scene's own BvhView::triangles.
 class WideIntersector {
 public:
@@ -84,7 +85,8 @@ private:
 };
 static_assert(BatchIntersector<WideIntersector>);
 
-/// Intersects rays with the instances of a scene, by a wide hierarchy over them and one of each mesh. Hits are bit-identical to those of find_instance_hit(), for every instruction set. Leaves are the scene's own
+/// Intersects rays with the instances of a scene, by a wide hierarchy over the instances and one of each mesh. Hits
+/// are bit-identical to the hits of find_instance_hit(), for every instruction set. Leaves are the scene's own
 /// InstancesView::order and mesh_triangles.
 class InstanceTracer {
 public:
