@@ -12,12 +12,12 @@
 
 namespace pl::cuda {
 
-/// Tells the work of one request from that of another: paths that wait belong to one.
+/// Tells the work of one request from the work of another: paths that wait belong to one request.
 struct LaunchKey {
     int slot = -1;  ///< FilmSlot::index(); negative: a precomputation
     std::uint32_t sample = 0;
     SampleUse use = SampleUse::Film;
-    pl::Stream stream = pl::Stream::Picture;  ///< of random numbers; pl::Stream, not that of the device
+    pl::Stream stream = pl::Stream::Picture;  ///< of random numbers; pl::Stream, not the stream of the device
 
     friend bool operator==(const LaunchKey&, const LaunchKey&) = default;
 };

@@ -118,7 +118,7 @@ using PictureKernel = void (*)(TraceSetup, M, PixelPaths);
 using ProbeKernel = void (*)(TraceSetup, ProbeMethod, ProbePaths);
 using ViewKernel = void (*)(ViewSetup);
 
-/// Integrator, that of its kernels, and picture kernels of an entry of MethodList.
+/// Integrator, KernelMethod and picture kernels of an entry of MethodList.
 template <int kEntry>
 using IntegratorAt = typename TypeAt<kEntry, MethodList>::Integrator;
 template <int kEntry>
@@ -168,7 +168,8 @@ struct LaunchSamples {
     SampleUse use = SampleUse::Film;
     PassCounters* counters = nullptr;  ///< its variance is incremented
 };
-/// kAddSamples puts the samples of a launch to their use, kSetSamples replaces those of the film. One thread per sample.
+/// kAddSamples puts the samples of a launch to their use, kSetSamples replaces the samples of the film. One thread
+/// per sample.
 using AddSamplesKernel = void (*)(FilmView film, LaunchSamples samples);
 extern const AddSamplesKernel kAddSamples;
 extern const AddSamplesKernel kSetSamples;
@@ -185,7 +186,7 @@ extern const ReadHalvesKernel kReadHalves;
 using ShowFilmKernel = void (*)(FilmView film, FrameStyle style, ToneCodes codes, Span<std::uint32_t> pixels);
 extern const ShowFilmKernel kShowFilm;
 
-/// The maximum of range_value() as bits, whose order is that of the values. `bits` must be 0. One thread per pixel.
+/// The maximum of range_value() as bits, which have the order of the values. `bits` must be 0. One thread per pixel.
 using LargestValueKernel = void (*)(FilmView film, std::uint32_t* bits);
 extern const LargestValueKernel kLargestValue;
 

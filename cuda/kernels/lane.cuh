@@ -84,9 +84,10 @@ __device__ inline void raise_to(std::uint32_t& maximum, std::uint32_t value) {
 #endif
 }
 
-/// Barriers by which all threads of a block begin each step of a segment together: the instructions of a segment exceed the instruction
-/// caches, those of a step do not. `kSteps`: 0, no barriers; 1, the segment is one step; 2, the path's ray, and shading; from 3 on, the
-/// shadow ray; from 4 on, scattering; 5, the light sample with the roulette.
+/// Barriers by which all threads of a block begin each step of a segment together: the instructions of a segment
+/// exceed the instruction caches, the instructions of a step do not. `kSteps`: 0, no barriers; 1, the segment is one
+/// step; 2, the path's ray, and shading; from 3 on, the shadow ray; from 4 on, scattering; 5, the light sample with
+/// the roulette.
 template <int kSteps>
 struct StepOfBlock {
     /// Begins step 1. Whether a condition holds in any thread of the block; without barriers, in this one. All threads must call it.

@@ -1,5 +1,5 @@
-// The step of a segment in which the threads of a warp evaluate the network of a ThreadNeuralField together, for those of them that
-// have reached a vertex.
+// The step of a segment in which the threads of a warp evaluate the network of a ThreadNeuralField together, for the
+// threads that have reached a vertex.
 #pragma once
 
 #include <bit>

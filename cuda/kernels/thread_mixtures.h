@@ -1,5 +1,6 @@
-// The neural field of kernels: each thread has one mixture, in shared memory, that of the vertex which its path has reached. In the
-// location of a vertex it would lie on the stack several times, and the stacks of all threads do not fit the first-level cache.
+// The neural field of kernels: each thread has one mixture, in shared memory: the mixture of the vertex which its
+// path has reached. In the location of a vertex the mixture would lie on the stack several times, and the stacks of
+// all threads do not fit the first-level cache.
 #pragma once
 
 #include "core/kernel/guiding/neural_field.h"
