@@ -6,9 +6,10 @@
 
 namespace pl {
 
-/// The value of CUDA_VISIBLE_DEVICES that leaves a rank one device, that of its number on its machine modulo the number of devices:
-/// of those that the variable lists so far, or of `devices` devices if `visible` is null. Empty where there is nothing to choose:
-/// without devices, and where the variable hides them all.
+/// The value of CUDA_VISIBLE_DEVICES that leaves a rank one device, whose number is the number of the rank on its
+/// machine modulo the number of devices: among the devices that the variable lists so far, or among `devices` devices
+/// if `visible` is null. Empty where there is nothing to choose: without devices, and where the variable hides them
+/// all.
 std::string visible_device(const char* visible, int devices, int rank_on_machine);
 
 /// Number of NVIDIA devices whose files are in a folder; the driver is not asked, since it reads the variable when it starts.

@@ -48,7 +48,7 @@ struct RankCommand {
     std::uint32_t share_pixels = 0;  ///< of Open
 };
 
-/// Arguments and results of commands that are no plain values; those of rank 0 go to all.
+/// Arguments and results of commands that are no plain values; arguments and results of rank 0 go to all ranks.
 struct Payload {
     std::shared_ptr<const HostScene> scene{};
     std::shared_ptr<const HostVolumes> volumes{};
