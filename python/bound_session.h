@@ -14,7 +14,7 @@ namespace pl {
 
 class BoundSession {
 public:
-    /// `options` are those of the command line, '_' for '-'.
+    /// `options`: as on the command line, with '_' for '-'.
     BoundSession(const BoundScene& scene, const nb::object& learner, const nb::kwargs& options);
 
     /// Renders until the film has `spp` samples per pixel, for so many seconds, or down to that noise; without limits as the command
