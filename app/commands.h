@@ -22,7 +22,7 @@ int run_score(const CommandLine& line, Console& console);
 int run_reference(const CommandLine& line, Console& console);
 int run_selftest(const CommandLine& line, Console& console);
 
-/// That of these which the command line names.
+/// Runs the subcommand that the command line names.
 int run_command(const CommandLine& line, Console& console);
 
 /// The part of `bench` of a rank other than 0, when rank 0 deals out runs: makes the plan from the same command line, then runs until

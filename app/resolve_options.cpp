@@ -126,7 +126,8 @@ void check_combinations(Command command, const Options& options) {
     if (!options.save_field.empty()) require_learning(options);
 }
 
-/// Representations other than the table are learned; of those that devices have no kernels for, "auto" takes the CPU.
+/// Representations other than the table are learned; for a representation that devices have no kernels for, "auto"
+/// takes the CPU.
 void settle_representation(Options& options) {
     const FieldSettings& field = options.render.field;
     if (field.representation == Representation::Table) return;

@@ -26,8 +26,8 @@ std::unique_ptr<RenderBackend> make_beside_window(const std::string& name, int t
     return make_own_backend(name, threads > 0 ? threads : std::max(1, usable_share() - 1));
 }
 
-/// Vertical axis, camera, parameters and materials, by the command line, belong to the scene that it names, not to scenes opened later. Of
-/// its parameters those that are knobs come with the request.
+/// Vertical axis, camera, parameters and materials, by the command line, belong to the scene that it names, not to
+/// scenes opened later. Parameters of the scene that are knobs come with the request.
 LoadSettings load_settings_of(const ui::SceneRequest& scene, const Options& opened) {
     LoadSettings settings{.default_light = opened.load.default_light};
     for (const auto& [name, value] : scene.knobs) settings.parameters.emplace_back(name, print_float(value));
