@@ -130,7 +130,7 @@ std::vector<Sums> sums_of_chunks(std::size_t count, std::uint32_t chunk, int thr
 
 // Work that finds more work: tasks that several threads take from one stack.
 
-/// Tasks that wait, and the number of those that run.
+/// Tasks that wait, and the number of tasks that run.
 template <class Task>
 class TaskStack {
 public:

@@ -69,7 +69,7 @@ std::string Bench::forecast() const {
                                           : ", whose time is not known before");
 }
 
-/// The complete ones of the bench's own folder.
+/// Takes the complete references of the bench's own folder.
 void Bench::take_references() {
     const ReferenceStore store(folder_.references());
     for (BenchScene& scene : settings_.plan.scenes) {

@@ -59,7 +59,7 @@ struct BenchScene {
     std::string source;  ///< as its user names it
     std::shared_ptr<const SceneDescription> description;
     double load_seconds = 0.0;
-    RenderSettings settings;                     ///< of every run but for method and seed
+    RenderSettings settings;                     ///< of every run, except method and seed
     RunLimits limits;                            ///< of every run
     Json options;                                ///< the settings and limits in words, for the plan's file
     std::shared_ptr<const Reference> reference;  ///< null until found or made

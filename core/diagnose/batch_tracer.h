@@ -49,7 +49,8 @@ public:
 
     /// Adds a sample to every pixel, with the numbers of the method `default`. Returns the vertices, by depth, then by pixel.
     std::vector<PathVertex> trace();
-    /// Likewise by a sampler, which may have learned from the passes before: its numbers are independent of theirs.
+    /// Adds a sample to every pixel, with directions by a sampler, which may have learned from the passes before: its
+    /// random numbers are independent of the numbers of the passes before.
     std::vector<PathVertex> trace(const DirectionSampler& sampler);
 
     std::span<const FilmPixel> film() const { return film_; }

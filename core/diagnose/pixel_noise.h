@@ -51,7 +51,7 @@ struct Contribution {
     double light = 0.0;         ///< luminance brought to the pixel
 };
 
-/// All that are not black. Their sum is the luminance of PathRecord::radiance, but for rounding.
+/// All contributions that are not black. Their sum is the luminance of PathRecord::radiance, up to rounding.
 std::vector<Contribution> contributions_of(const PathRecord& path);
 
 // The variance of a pixel's estimate, divided among techniques, bounces and lights.
@@ -59,9 +59,9 @@ std::vector<Contribution> contributions_of(const PathRecord& path);
 /// Bounces are told apart up to one less; the last class has all others.
 inline constexpr std::size_t kBounceClasses = 9;
 
-/// Shares of the variance of one path's luminance T. That of a part C, the sum of the contributions of one kind, is Cov(C, T) / Var(T):
-/// its own variance, and half of its covariances with each of the other parts. The shares of each array sum to 1; one is negative
-/// if its part makes up for others.
+/// Shares of the variance of one path's luminance T. The share of a part C, the sum of the contributions of one kind,
+/// is Cov(C, T) / Var(T): its own variance, and half of its covariances with each of the other parts. The shares of
+/// each array sum to 1; one is negative if its part makes up for others.
 struct NoiseShares {
     std::array<Interval, kFoundByCount> found_by{};
     std::array<Interval, kBounceClasses> bounces{};

@@ -46,8 +46,9 @@ struct PixelPaths {
     std::vector<PathRecord> guided{};  ///< empty without a field
 };
 
-/// Traces by record_path(), in any thread. A picture that has fewer passes than requested is continued by those that follow. Guided
-/// paths sample from the field as it was when the replay was taken. Stopped early, it returns the best so far.
+/// Traces by record_path(), in any thread. A picture that has fewer passes than requested is continued by the passes
+/// that follow. Guided paths sample from the field as it was when the replay was taken. Stopped early, it returns the
+/// best so far.
 PixelPaths trace_pixel(PassPair& passes, const PixelPathsRequest& request, const StopFlag* stop = nullptr);
 
 /// Luminance of the radiance that a path brought to its pixel.

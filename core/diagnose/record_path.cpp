@@ -40,7 +40,7 @@ class PathRecorder {
 public:
     using State = PathState<kAll, M>;
 
-    /// `choices` are those that the method notes.
+    /// `choices`: the choices that the method notes.
     PathRecorder(const PathContext<M>& context, ObservedChoices& choices)
         : scene_(context.scene), method_(context.method), context_(context), choices_(choices) {}
 

@@ -48,7 +48,7 @@ struct EmissionRecord {
 struct LightSampleRecord {
     Vec3f wi{0.0f};
     std::optional<Vec3f> position{};         ///< on the light; none if it is infinitely far away
-    std::uint32_t primitive = kNoPrimitive;  ///< of the light, likewise
+    std::uint32_t primitive = kNoPrimitive;  ///< of the light, if it has one
     float pdf_sa = 0.0f;                     ///< of light sampling
     float scatter_pdf_sa = 0.0f;             ///< of scattering into the same direction
     float weight = 0.0f;                     ///< MIS weight

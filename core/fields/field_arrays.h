@@ -163,7 +163,8 @@ std::size_t length_of(const Spec& spec, const FieldShape& shape, const Storage& 
         return spec.owner.count(arrays);
 }
 
-/// Sets the values [first, first + count) of an array, which begin at value `index` of their owner, to those without training samples.
+/// Sets the values [first, first + count) of an array, which begin at value `index` of their owner, to the values
+/// without training samples.
 template <class Spec, class Array>
 void reset_values(const Spec& spec, const FieldShape& shape, Array& values, std::size_t first, std::size_t count,
                   std::size_t index = 0) {

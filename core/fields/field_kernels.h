@@ -55,7 +55,7 @@ constexpr bool any_kernel_of(Representation representation, MethodId method, con
     return is_found;
 }
 
-/// Likewise. Throws Error(Runtime) if there is none, see has_target().
+/// As any_kernel_of(), but throws Error(Runtime) if there is no such kernel, see has_target().
 template <class Visit>
 void with_kernel_of(Representation representation, MethodId method, const LearningSettings& learning, bool trains,
                     Visit&& visit) {

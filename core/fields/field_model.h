@@ -39,7 +39,7 @@ constexpr void with_model(Representation representation, Visit&& visit) {
     });
 }
 
-/// Time that guiding takes at a vertex, over that by a table.
+/// Time that guiding takes at a vertex, over the time that guiding by a table takes.
 constexpr double guidance_of(Representation representation) {
     double guidance = 1.0;
     with_model(representation, [&]<class Model>() { guidance = Model::kGuidance; });

@@ -61,7 +61,7 @@ std::uint32_t affordable_nodes(const FieldSettings& settings, std::size_t light_
     return static_cast<std::uint32_t>(std::clamp(nodes, 64.0, static_cast<double>(Model::kMostNodes)));
 }
 
-/// Those of the representation of trees, whatever the settings choose: a shape is told in full.
+/// Nodes of the representation of trees, whatever the settings choose: a shape is told in full.
 std::uint32_t nodes_of_shape(const FieldSettings& settings, std::size_t light_clusters) {
     std::uint32_t nodes = 1;
     any_of_types(FieldModels{}, [&]<class Model>() {

@@ -22,7 +22,8 @@ struct FieldSettings {
     LearningSettings learning{};
     float uniform_floor = kUniformShare;
     int precompute_samples = 1;  ///< probes per cell and volume, a square number
-    /// Volumes that refinement may add, as a share of those placed, in [0, 1]; or kRefineByRecords. See refine_placement().
+    /// Volumes that refinement may add, as a share of the volumes placed, in [0, 1]; or kRefineByRecords. See
+    /// refine_placement().
     float refine_share = kRefineByRecords;
     Representation representation = Representation::Table;  ///< of methods that learn; probes fill tables
 

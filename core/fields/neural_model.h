@@ -56,7 +56,7 @@ constexpr void for_each_network_array(Fn&& fn) {
 /// Gives the network the weights of a fresh field and forgets its steps.
 void reset_network(HostNeural& field);
 
-/// Bytes of the network's arrays. Those of a volume are table_bytes().
+/// Bytes of the network's arrays. The arrays of a volume have table_bytes().
 inline constexpr std::size_t kNetworkBytes =
     4 * kNetworkWeights * sizeof(float) + kNetworkCounts * sizeof(std::uint32_t);
 

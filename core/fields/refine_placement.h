@@ -35,14 +35,14 @@ RefinedPlacement refine_placement(const SiteSource& source, const PlacementView&
 /// Up to `most` volumes to split, by the tables of the field. None without tables: other representations are refined by their updates.
 std::vector<std::uint32_t> volumes_to_split(const AnyFieldView& field, std::size_t most, int threads);
 
-/// Neighbors that a volume is compared with: about those whose Voronoi cells touch its own on a plane.
+/// Neighbors that a volume is compared with: about the volumes whose Voronoi cells touch its own on a plane.
 inline constexpr int kComparedNeighbors = 4;
 
 /// Squared Hellinger distance 1 - sum sqrt(p q) of two volumes' tables, in [0, 1]. p are the probabilities of the cells of
-/// `volume`, q those that the table of `other` gives them as seen from the site of `volume`, mapped by Parallax as guided paths
-/// map it, so that differences due to position alone count as little as they do for paths. Only every second cell counts, a
-/// checkerboard, since updates smooth the others with these. 1 if `other` has no density in that hemisphere.
-/// [Hellinger 1909]
+/// `volume`, q the probabilities that the table of `other` gives these cells as seen from the site of `volume`,
+/// mapped by Parallax as guided paths map it, so that differences due to position alone count as little as they do
+/// for paths. Only every second cell counts, a checkerboard, since updates smooth the others with these. 1 if `other`
+/// has no density in that hemisphere.   [Hellinger 1909]
 double hellinger2(const TableField& field, std::int32_t volume, std::int32_t other);
 
 /// Up to `most` volumes to split, best first, ties to the lower number: those with the largest n H^2 V^2, with n a volume's

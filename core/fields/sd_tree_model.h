@@ -49,7 +49,7 @@ struct SdTreeInspector : IrradianceSummary<SdTreeField> {
     using IrradianceSummary<SdTreeField>::samples;
     /// Share of the sphere without light, as far as the leaf knows.
     float unvisited_share(std::uint32_t volume) const;
-    /// That of equal cells of the sphere, as many as tables have: log2(cells) for a uniform tree, at least 0.
+    /// Entropy of equal cells of the sphere, as many as tables have: log2(cells) for a uniform tree, at least 0.
     float entropy(std::uint32_t volume) const;
     float bsdf_fraction(std::uint32_t volume) const { return field.bsdf_fraction[leaf_of(volume)]; }
 

@@ -52,7 +52,8 @@ void gather(Quadtree& nodes) {
             if (nodes[i].child[q] != 0) nodes[i].energy[q] = sum_of_quadrants(nodes[nodes[i].child[q]].energy);
 }
 
-/// The quadtree of a leaf whose quadrants have at most `share` of its energy each; those divided anew give each quarter the same.
+/// The quadtree of a leaf whose quadrants have at most `share` of its energy each; quadrants divided anew give each
+/// quarter the same energy.
 Quadtree divided(const HostSdTree& tree, std::uint32_t leaf, float share) {
     struct Origin {
         std::uint32_t node, depth;  ///< of the old tree, or kNone; depth of the new node

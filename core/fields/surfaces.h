@@ -1,5 +1,5 @@
-// The reflecting surfaces that radiance volumes are placed on: connected triangles, of those that are in the scene directly, with nearly
-// the same normal.
+// The reflecting surfaces that radiance volumes are placed on: connected triangles that are in the scene directly,
+// with nearly the same normal.
 #pragma once
 
 #include <array>

@@ -124,8 +124,8 @@ public:
         : scene_(scene.view()), tree_{view_of(volumes.kd_nodes)}, sites_(view_of(volumes.sites)), own_(own),
           sets_(trees), places_(places) {}
 
-    /// Builds both sides of these entries of the hierarchy's triangles, and writes their places. Those of kind Grid or Cell number
-    /// the grids and cells of the pieces that are returned.
+    /// Builds both sides of these entries of the hierarchy's triangles, and writes their places. Places of kind Grid
+    /// or Cell number the grids and cells of the pieces that are returned.
     GridPieces build(IndexRange entries) {
         pieces_ = {};
         sets_.restart();

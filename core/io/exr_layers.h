@@ -32,9 +32,10 @@ struct ExrLayer {
     bool is_gray() const { return !is_luminance_chroma && channels[0] == channels[2]; }
 };
 
-/// The first of these that there is, by the order of the parts, then of the channels: R, G and B without a prefix; those
-/// of a layer "Combined", as Blender writes it; of another layer; luminance Y with the chroma RY and BY; Y alone; the only
-/// channel. Deep parts, subsampled channels and whole numbers do not count. Throws Error(Input) if there is none.
+/// The first of these that there is, by the order of the parts, then of the channels: R, G and B without a prefix;
+/// R, G and B of a layer "Combined", as Blender writes it; R, G and B of another layer; luminance Y with the chroma
+/// RY and BY; Y alone; the only channel. Deep parts, subsampled channels and whole numbers do not count. Throws
+/// Error(Input) if there is none.
 ExrLayer choose_exr_layer(const std::vector<ExrPart>& parts, const std::filesystem::path& path);
 
 }  // namespace pl

@@ -39,7 +39,7 @@ Json read_json_file(const std::filesystem::path& path, std::string_view schema);
 /// The file appears under its name only when it is complete.
 void write_json_file(const std::filesystem::path& path, const Json& document);
 
-/// Makes the folder and those above it. Throws Error(Runtime).
+/// Makes the folder and the folders above it. Throws Error(Runtime).
 void make_folder(const std::filesystem::path& folder);
 
 /// The result of `read`; missing members and wrong types become an Error(Input) that names the file.

@@ -188,7 +188,7 @@ std::string_view LineReader::take_line() {
     return line;
 }
 
-/// A line that ends with a backslash, with those that continue it.
+/// A line that ends with a backslash, with the lines that continue it.
 std::string_view LineReader::join(std::string_view line) {
     joined_.clear();
     while (line.ends_with('\\')) {

@@ -154,7 +154,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Whether a texel is not gray, but for the rounding of lossy images.
+/// Whether a texel is not gray, beyond the rounding of lossy images.
 bool has_colors(const TextureDescription& texture) {
     constexpr float kRounding = 0.02f;
     return std::any_of(texture.texels.begin(), texture.texels.end(), [](const glm::vec4& texel) {

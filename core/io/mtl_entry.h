@@ -12,7 +12,7 @@
 
 namespace pl {
 
-/// Of -s and -o: texture coordinates times `scale` plus `offset` are those in the image, as in Blender.
+/// Of -s and -o: texture coordinates times `scale` plus `offset` are coordinates in the image, as in Blender.
 struct UvScale {
     glm::vec2 scale{1.0f};
     glm::vec2 offset{0.0f};

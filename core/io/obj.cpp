@@ -30,7 +30,8 @@ std::vector<std::string> names_of(const fs::path& folder, const std::string& arg
     return file.is_there && !file.is_elsewhere ? std::vector{whole} : library_names(arguments);
 }
 
-/// Loads all libraries into the scene. Returns those that cannot be read with the reasons, for the warning about materials.
+/// Loads all libraries into the scene. Returns the libraries that cannot be read, with the reasons, for the warning
+/// about materials.
 std::vector<std::string> load_libraries(SceneDescription& scene, const fs::path& obj, const ObjMesh& mesh,
                                         MapKd map_kd, std::vector<UvScale>& uvs) {
     std::vector<std::string> missing;

@@ -18,8 +18,8 @@ namespace pl {
 /// Follows one session, in its thread. Only pictures of View::Beauty are measured.
 class LiveRuns {
 public:
-    /// Words for settings of a session besides those in RunLabel; called at each point, because some may change while
-    /// a picture stays.
+    /// Words for settings of a session besides the settings in RunLabel; called at each point, because some may
+    /// change while a picture stays.
     using Details = std::function<std::string(const Session&, FilmSlot)>;
 
     /// Share of the charged time for measuring. A fifth below the promised share: the budget rests on the last

@@ -38,7 +38,7 @@ struct Plot {
     std::vector<PlotSeries> series;
     double floor = 0.0;                             ///< noise of the reference, drawn as a gray area below; 0: none
     std::optional<LogAxis> x_shown = std::nullopt;  ///< nothing: an axis that holds all values
-    std::optional<LogAxis> y_shown = std::nullopt;  ///< likewise
+    std::optional<LogAxis> y_shown = std::nullopt;  ///< nothing: an axis that holds all values
 
     LogAxis x_axis() const;
     LogAxis y_axis() const;

@@ -59,7 +59,7 @@ private:
     /// Sets the exponent of numbers below kMaxBvhTriangles: arithmetic on subnormal floats is slow.
     static constexpr std::uint32_t kNormalFloat = 0x40000000u;
 
-    /// Nearly the logarithm of the box's area: the bits of a float, but for the least ones.
+    /// Nearly the logarithm of the box's area: the bits of a float, without the lowest eight.
     static float size_of(const BuildBox& box) {
         return static_cast<float>(std::bit_cast<std::uint32_t>(static_cast<float>(box.half_area())) >> 8);
     }
@@ -137,7 +137,7 @@ private:
         Bin bins[Binning::kBins];
         std::uint32_t used = 0;  ///< a bit per bin with triangles; most sets are small
 
-        /// Splits behind each bin that has triangles, the last one excepted: those between would be the same.
+        /// Splits behind each bin that has triangles, the last one excepted: splits between would be the same.
         void improve(int axis, BuildSplit& best) const {
             double upper_cost[Binning::kBins];
             Bin upper;

@@ -12,7 +12,7 @@
 namespace pl {
 namespace {
 
-/// Numbers of copies, of those that the current instance has made.
+/// Numbers of the copies that the current instance has made.
 class CopiedNumbers {
 public:
     explicit CopiedNumbers(std::size_t count) : entries_(count) {}

@@ -23,11 +23,11 @@ std::uint64_t shown_triangles(const SceneDescription& scene);
 /// Whether a material is on a mesh.
 bool is_of_mesh(const SceneDescription& scene, std::uint32_t material);
 
-/// The first material of a mesh that emits light, of those that are in range, or nothing.
+/// The first material of a mesh that emits light, among the materials in range, or nothing.
 std::optional<std::uint32_t> emitting_material(const SceneDescription& scene, const MeshDescription& mesh);
 
-/// Replaces instances by copies of their meshes, in their order behind the direct triangles: corners and normals are those that
-/// kernels compute, and primitives keep their numbers.
+/// Replaces instances by copies of their meshes, in their order behind the direct triangles: corners and normals are
+/// as kernels compute them, and primitives keep their numbers.
 void expand_instances(SceneDescription& scene);
 
 /// The errors of meshes and instances, a line for each kind, which starts with a line break.

@@ -121,7 +121,7 @@ private:
     Vec3d offset_;
     Affine inverse_;
     Vec3d reach_;         ///< largest magnitudes of the mesh's coordinates
-    double world_reach_;  ///< of those in the world, in any coordinate
+    double world_reach_;  ///< largest magnitude of a coordinate in the world
 };
 
 /// Largest factor by which a transformation lengthens vectors, or a little more: the root of a norm of A^T A.

@@ -8,7 +8,8 @@
 
 namespace pl {
 
-/// Bounds of all triangles, empty without any. Those of an instance are within the box of its transformed mesh's box.
+/// Bounds of all triangles, empty without any. The triangles of an instance are within the box of its transformed
+/// mesh's box.
 Bounds bounds_of(const SceneDescription& scene);
 Bounds bounds_of(const HostScene& scene);
 

@@ -21,7 +21,8 @@ inline constexpr auto kChoices<UpAxis> = std::to_array<ChoiceInfo<UpAxis>>({
 /// +y or +z, of which OBJ files say nothing. The first rule that applies:
 /// 1. The model stands on the plane y = 0 or z = 0: its bounds begin there, within a twentieth of their extent, and
 ///    contain 0 in their middle half along the other two axes. That axis is up.
-/// 2. The area projected along z is at least twice that along x and that along y, as of a table or a terrain: z is up.
+/// 2. The area projected along z is at least twice the area along x and the area along y, as of a table or a terrain:
+/// z is up.
 ///    Instances count as boxes.
 /// 3. y is up, which is the convention of OBJ files.
 /// The scene must have a triangle.

@@ -98,7 +98,7 @@ public:
     std::optional<FieldStatus> field_status(MethodId method) const { return fields_->status(method); }
     /// Empty for films without guided paths, without light samples, and if every pass is guided by setting.
     std::optional<GuidingStatus> guiding_status(FilmSlot slot) const { return films_->guiding_status(slot); }
-    /// Those of all methods; null before they are placed.
+    /// The volumes of all methods; null before they are placed.
     const std::shared_ptr<const HostVolumes>& volumes() const { return fields_->placement().volumes(); }
     /// Of the placement that all methods share.
     Refinement refinement() const { return fields_->placement().refinement(); }
@@ -115,7 +115,7 @@ private:
     void control_learning(const EditLearning& edit);
     void clear_tables();
 
-    // On the heap, because each refers to those before it, and a session may move.
+    // On the heap, because each of these refers to the objects before it, and a session may move.
     std::unique_ptr<RenderInputs> inputs_;
     std::unique_ptr<SessionFields> fields_;
     std::unique_ptr<FilmRenderer> films_;

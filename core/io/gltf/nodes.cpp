@@ -85,7 +85,7 @@ private:
         return node;
     }
 
-    /// Replaces places relative to parents by those in the world.
+    /// Replaces places relative to parents by places in the world.
     void place(const std::vector<std::uint32_t>& roots, std::vector<GltfNode>& nodes) const {
         const std::vector<std::uint32_t> reached = below(roots);
         for (const std::uint32_t i : reached)

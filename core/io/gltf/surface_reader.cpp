@@ -374,7 +374,7 @@ private:
     Metalness metalness_;
     float metal_factor_ = 1.0f;
     float roughness_ = 1.0f;                      ///< of the metal; glass and coats may have another one
-    std::uint32_t roughness_image_ = kNoTexture;  ///< likewise
+    std::uint32_t roughness_image_ = kNoTexture;  ///< of the roughness of the metal
     float strength_ = 0.0f;                       ///< of the anisotropy of the metal
     float turn_deg_ = 0.0f;                       ///< of its direction
     glm::vec3 base_{1.0f};

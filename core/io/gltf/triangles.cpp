@@ -74,7 +74,7 @@ std::vector<float> GltfPlacements::read(GltfFile& file, const std::string& at, c
 
 namespace {
 
-/// Places in the world of the joints of a skin, relative to those when the mesh was bound to it.
+/// Places in the world of the joints of a skin, relative to their places when the mesh was bound to the skin.
 std::vector<glm::dmat4> joint_transforms(GltfFile& file, const GltfNodes& nodes, std::uint32_t skin) {
     const std::string at = fmt::format("/skins/{}", skin);
     std::vector<glm::dmat4> joints;

@@ -13,7 +13,7 @@
 
 namespace pl {
 
-// Places of the mesh of a glTF node: its own one, or those that the extension EXT_mesh_gpu_instancing lists.
+// Places of the mesh of a glTF node: its own place, or the places that the extension EXT_mesh_gpu_instancing lists.
 
 /// JSON pointer of the extension of a node.
 std::string gpu_instancing_at(std::uint32_t node);

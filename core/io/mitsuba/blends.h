@@ -21,7 +21,7 @@ struct MitsubaAdapters {
     std::optional<MitsubaRelief> relief{};  ///< of `bumpmap`
     bool has_mask = false;
     float opacity = 1.0f;                  ///< of `mask`
-    std::uint32_t opacities = kNoTexture;  ///< likewise, multiplies it
+    std::uint32_t opacities = kNoTexture;  ///< of `mask`; multiplies `opacity`
 };
 
 /// Effects that are left out are noted. Throws Error(Input) if there is none.
@@ -41,8 +41,8 @@ struct MitsubaWeight {
 MitsubaWeight mitsuba_weight(const MitsubaObject& object, const std::string& name, float standard,
                              SceneDescription& scene);
 
-/// Two chains of materials as one. Each material but the last has the share of those behind it, and the image of that share. `object` is
-/// noted where they do not blend: then the heavier one is shown.
+/// Two chains of materials as one. Each material but the last has the share of the materials behind it, and the image
+/// of that share. `object` is noted where they do not blend: then the heavier one is shown.
 std::vector<MaterialDescription> blended_parts(const MitsubaObject& object, std::vector<MaterialDescription> first,
                                                std::vector<MaterialDescription> second, const MitsubaWeight& weight,
                                                SceneDescription& scene);

@@ -110,7 +110,7 @@ bool add_mitsuba_light(const MitsubaObject& emitter, SceneDescription& scene) {
 
 namespace {
 
-/// Years that are accepted. The error of sun_towards() is known for those from 1999 to 2015.
+/// Years that are accepted. The error of sun_towards() is known for the years from 1999 to 2015.
 constexpr float kFirstYear = 1900.0f;
 constexpr float kLastYear = 2100.0f;
 

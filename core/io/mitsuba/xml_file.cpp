@@ -74,7 +74,7 @@ void MitsubaFile::read(const fs::path& path, int depth) {
 void MitsubaFile::take(const MitsubaText& text, int depth) {
     for (const MitsubaObject& object : MitsubaObject(text.document.child("scene"), text).children())
         take(object, depth);
-    // Those inside of others, too.
+    // The ids of all objects, also of objects inside of other objects.
     text.for_each_object([&](const MitsubaObject& object) {
         const std::string id = object.attribute("id");
         if (!id.empty() && object.element() != "ref" && object.element() != "alias")
@@ -97,7 +97,7 @@ void MitsubaFile::take(const MitsubaObject& object, int depth) {
     }
 }
 
-/// Those that have a `default`, and those that attributes mention as $NAME; sorted.
+/// Parameters that have a `default`, and parameters that attributes mention as $NAME; sorted.
 std::vector<std::string> MitsubaFile::parameter_names() const {
     std::set<std::string> names;
     const auto add_mentioned = [&names](std::string_view value) {

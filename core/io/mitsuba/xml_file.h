@@ -156,7 +156,7 @@ struct MitsubaText {
         return 1 + static_cast<int>(std::count(text.begin(), text.begin() + end, '\n'));
     }
 
-    /// Calls `visit` for every element, however deep, with those outside of others first.
+    /// Calls `visit` for every element, however deep, outer elements first.
     template <class Visit>
     void for_each_object(const Visit& visit) const {
         struct Walker : pugi::xml_tree_walker {

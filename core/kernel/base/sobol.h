@@ -34,8 +34,8 @@ PL_INLINE Word scramble_reversed(Word x, Word seed) {
     return x;
 }
 
-/// Bits, in reverse order, of the second coordinate of point `index`. Those of the first are `index` itself. The matrix of the
-/// second dimension is Pascal's triangle modulo 2, a product of five shifts.
+/// Bits, in reverse order, of the second coordinate of point `index`. The bits of the first coordinate are `index`
+/// itself. The matrix of the second dimension is Pascal's triangle modulo 2, a product of five shifts.
 template <class Word>
 PL_INLINE Word sobol_second_reversed(Word index) {
     index ^= index >> 16;

@@ -132,8 +132,8 @@ PL_HD inline BoxRay make_box_ray(const BvhNode& root, const Ray& ray) {
 }
 
 /// Conservative slab test: false positives only. Returns the entry distance, or infinity if the ray misses the box or
-/// enters it beyond `t_max`. `node` is a BvhNode or a SmallLeaf; `multiply_add` is bound_multiply_add(), but for tests of either
-/// rounding.
+/// enters it beyond `t_max`. `node` is a BvhNode or a SmallLeaf; `multiply_add` is bound_multiply_add(), except in
+/// tests of either rounding.
 template <class Node, class MultiplyAdd>
 PL_HD inline float intersect_box(const Node& node, const BoxRay& ray, float t_max, const MultiplyAdd& multiply_add) {
     float entry = 0.0f;

@@ -18,7 +18,8 @@ struct LampEdge {
     Vec3f center;  ///< of the triangle
 };
 
-/// Whether the emission that the camera sees on one side of a point of an edge differs from that on the other.
+/// Whether the emission that the camera sees on one side of a point of an edge differs from the emission on the other
+/// side.
 template <FeatureSet F, class Rays>
 PL_HD inline bool is_seen_border(const EmissionContext& context, const SceneView& scene, Rays& rays, Vec3f point,
                                  Vec3f to_center, float share) {

@@ -35,8 +35,8 @@ struct FieldTrainer : MethodHooks {
     }
 };
 
-/// Radiance `expected` of a path from its vertex on as a share of that at its first one. Infinite or NaN, and then `otherwise`, if the
-/// first expectation is 0 or the ratio is beyond the range of float.
+/// Radiance `expected` of a path from its vertex on as a share of the radiance expected at its first vertex. Infinite
+/// or NaN, and then `otherwise`, if the first expectation is 0 or the ratio is beyond the range of float.
 template <class N>
 PL_INLINE typename N::Real expected_share(const typename N::Real& expected, const typename N::Real& first,
                                           const typename N::Real& otherwise) {

@@ -111,7 +111,8 @@ PL_INLINE Real3<N> turned_to(const Real3<N>& geometric_normal, const Real3<N>& n
     return scaled(normal, select(is_same_side, N::constant(1.0f), N::constant(-1.0f)));
 }
 
-/// The interpolated shading normal of the front side. That of an instance is interpolated in the space of its mesh.
+/// The interpolated shading normal of the front side. The normal of an instance is interpolated in the space of its
+/// mesh.
 template <FeatureSet F>
 PL_HD inline Vec3f interpolate_normal(const SceneView& scene, std::uint32_t primitive, Vec3f b, Vec3f fallback) {
     if constexpr (F.has(Feature::SmoothNormals)) {

@@ -10,7 +10,7 @@ namespace pl {
 /// Widths along x and y, for GgxOf. A ratio of 1 has the bits of IsotropicWidth.   [Heitz 2014, eqs. 80, 85]
 struct AnisotropicWidth {
     float alpha;  ///< along x
-    float ratio;  ///< of the width along y to that along x, in (0, 1]
+    float ratio;  ///< of the width along y to the width along x, in (0, 1]
 
     PL_HD float x() const { return alpha; }
     PL_HD float y() const { return alpha * ratio; }

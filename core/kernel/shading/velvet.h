@@ -17,7 +17,7 @@ public:
     PL_HD explicit SheenFibers(float roughness)
         : inverse_alpha_(1.0f / square(roughness)), bend_(square(1.0f - square(roughness))) {}
 
-    /// f cos theta_i, 1/sr: D G / (4 cos_o) for directions above the horizon. Reciprocal but for the cosine.
+    /// f cos theta_i, 1/sr: D G / (4 cos_o) for directions above the horizon. Reciprocal except for the cosine.
     PL_HD float reflection(Vec3f wo, Vec3f wi) const {
         const Vec3f m = half_vector(wo, wi);
         return density(m) / ((1.0f + masking(wo.z) + masking(wi.z)) * 4.0f * wo.z);
