@@ -385,7 +385,8 @@ struct MatrixProduct {
 };
 
 /// The light of one volume in directions of its cells, and the mixture that learns it. Component k has the density exp(offset_k + axis_k
-/// w) over directions w, not normalized. Arrays of directions: [column]; those behind the cells have no probability.
+/// w) over directions w, not normalized. Arrays of directions: [column]; directions behind the cells have no
+/// probability.
 struct MixtureLight {
     const float* probability;  ///< of the light; the sum is 1
     const float *x, *y, *z;    ///< of unit directions
@@ -394,7 +395,8 @@ struct MixtureLight {
     std::uint32_t columns;
 };
 
-/// Expectations over the light: of the responsibility of each component, and of that times the direction.
+/// Expectations over the light: of the responsibility of each component, and of the responsibility times the
+/// direction.
 struct MixtureShares {
     float weight[kVertexLobes];
     float direction[3][kVertexLobes];

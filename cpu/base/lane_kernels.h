@@ -70,8 +70,8 @@ struct LaneKernels {
     /// Samples far lights for the vertices that choose them, and keeps the samples in `far`.
     void (*sample_far_lights)(const FarRows& lights, const VertexGroup* vertices, FarSampleGroup* far,
                               LightSampleGroup* samples, std::uint32_t groups);
-    /// Weighs the light samples by multiple importance sampling, with the densities in `directions`. Clears pdf_sa of those that
-    /// cannot contribute.
+    /// Weighs the light samples by multiple importance sampling, with the densities in `directions`. Clears pdf_sa of
+    /// samples that cannot contribute.
     void (*weigh_lights)(const VertexGroup* vertices, const DirectionGroup* directions, LightSampleGroup* samples,
                          std::uint32_t groups);
     /// The vertices at the ends of a block's segments: surfaces, reflectances as of Lambert reflectors, and numbers of vertices. Rows of paths that hit nothing
@@ -86,19 +86,20 @@ struct LaneKernels {
     /// the paths whose directions have a weight above 0. Rays and densities of the other paths are then arbitrary.
     void (*scatter_paths)(const BlockRows& block, const DirectionGroup* directions, RayGroup* rays, BlockBits& lit);
     /// Appends the shadow rays of a block's light samples to the `count` rays of a batch, whose t_max is 1, and returns the number of
-    /// rays then. `lit`: comes in as the paths that have light samples, and leaves as those that have shadow rays, whose contributions
-    /// are kept.
+    /// rays then. `lit`: comes in as the paths that have light samples, and leaves as the paths that have shadow
+    /// rays, whose contributions are kept.
     std::uint32_t (*pack_shadow_rays)(const BlockRows& block, const LightSampleGroup* samples, BlockBits& lit,
                                       VectorGroup* kept, RayGroup* rays, std::uint32_t count);
     /// Adds the contributions of light samples to the paths in `lit`.
     void (*connect_paths)(const VectorGroup* lights, const BlockBits& lit, PathGroup* paths, std::uint32_t groups);
     /// The volumes of a block's vertices: what directions are sampled by, and their values. `rows`: served are the vertices that may have
-    /// a volume. Returns those that have one, and marks those whose volume has no known node: their sites and normals are arbitrary.
+    /// a volume. Returns the vertices that have a volume, and marks the vertices whose volume has no known node:
+    /// their sites and normals are arbitrary.
     BlockBits (*look_up_volumes)(const VolumeRows& field, const LearningRows& rows, BlockBits& unknown);
     /// Contribution estimates at the vertices in `reached`.
     void (*estimate_contributions)(const LearningRows& rows, const BlockBits& reached, BlockFloats& estimates);
     /// Targets of the training samples that a block's segments complete. `emitted`: see TableLanes::complete(); `most`: the largest
-    /// target. Marks the samples, and those that are clamped.
+    /// target. Marks the samples, and the clamped samples.
     void (*complete_samples)(const LearningRows& rows, bool is_indirect, float most, const BlockFloats& emitted,
                              BlockFloats& targets, BlockBits& samples, BlockBits& clamped);
     /// Opens training samples for the paths in `scattered`.

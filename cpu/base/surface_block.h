@@ -24,7 +24,7 @@ public:
         const std::uint32_t group = first / kGroupSize;
         kernels_.find_points(rows, rays.ray_groups() + group, rays.hit_groups() + group, points_, groups_);
     }
-    /// Finds them one by one, for scenes with instances. Apart: the same for all methods.
+    /// Finds the points one by one, for scenes with instances. Apart: the same for all methods.
     template <FeatureSet F>
     [[gnu::noinline]] void find_singly(const SceneView& scene, const RayBatch& rays, std::uint32_t first,
                                        std::uint32_t end) {
@@ -35,7 +35,7 @@ public:
                 points_[(ray - first) / kGroupSize].set((ray - first) % kGroupSize,
                                                         make_flat_point<F>(scene, hit, -rays.ray(ray).direction));
     }
-    /// The points of ray `first` of find() and of those behind it; undefined for rays that miss.
+    /// The points of ray `first` of find() and of the rays behind it; undefined for rays that miss.
     PointGroup* points() { return points_; }
     const PointGroup* points() const { return points_; }
     /// Number of groups with points.

@@ -18,8 +18,8 @@ PL_INLINE MaskOf<Real> same_sign(const Real& x, const Real& y) {
     return (std::bit_cast<MaskOf<Real>>(x) ^ std::bit_cast<MaskOf<Real>>(y)) >= 0;
 }
 
-/// Recomputes the edge functions exactly in `lanes`, those with a zero among them, as intersect_triangle does, and
-/// returns the mask of all lanes with consistent signs. Rare, hence not inlined.
+/// Recomputes the edge functions exactly in `lanes`, the lanes with a zero among them, as intersect_triangle does,
+/// and returns the mask of all lanes with consistent signs. Rare, hence not inlined.
 template <class Real>
 [[gnu::noinline, gnu::cold]] MaskOf<Real> repeat_exactly(const RayVector<Real>& a, const RayVector<Real>& b,
                                                          const RayVector<Real>& c, std::uint32_t lanes,

@@ -123,8 +123,8 @@ public:
                             4 * (row * static_cast<std::int32_t>(map().width) + texel.column.entry));
     }
 
-    /// Keeps the samples of all lanes in `far`, and makes light samples in those that choose far lights. `texel`: chosen before, if there
-    /// is a map.
+    /// Keeps the samples of all lanes in `far`, and makes light samples in the lanes that choose far lights. `texel`:
+    /// chosen before, if there is a map.
     PL_INLINE void sample(const SampledTexelOf<Lanes>& texel, FarSampleGroup& far, LightSampleGroup& samples) const {
         const LaneInt chosen = this->chosen();
         if (!Lanes::any(chosen)) return;

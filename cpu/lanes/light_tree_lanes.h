@@ -118,9 +118,9 @@ private:
 /// A vector of receivers that choose lights. A choice is one or two descents: start(), then advance() while it is_under_way(),
 /// turn_back(), advance() again, and finish().
 ///
-/// Lanes without a learned choice need the first descent alone: from the root to a light. Those that the tree leads go from the root
-/// to a cluster, and from there to a light. Those that the learned choice leads go from the cluster to a light; their second
-/// descent is from the root to the cluster, for its probability by the tree.
+/// Lanes without a learned choice need the first descent alone: from the root to a light. Lanes that the tree leads
+/// go from the root to a cluster, and from there to a light. Lanes that the learned choice leads go from the cluster
+/// to a light; their second descent is from the root to the cluster, for its probability by the tree.
 class LightChoiceLanes : public LightDescentLanes {
 public:
     PL_INLINE void start(const LightTreeRows& tree, const VertexGroup& receivers, const LearnedLightsGroup& learned,

@@ -123,7 +123,8 @@ PL_INLINE std::uint32_t enter_children(const WideNode& node, const Ray& ray, flo
     return entered & node.child_bits;
 }
 
-/// The children that a ray has still to visit, nearer ones first; those beyond the closest hit, at `t_max`, are culled.
+/// The children that a ray has still to visit, nearer ones first; children beyond the closest hit, at `t_max`, are
+/// culled.
 class NodeWalk {
 public:
     /// Starts at an inner node. `stack` has room for kWideStack children.
@@ -163,7 +164,7 @@ public:
     }
 
 private:
-    /// Keeps the nearest child as the next one, and those from `first` on sorted, the nearest on top.
+    /// Keeps the nearest child as the next one, and the children from `first` on sorted, the nearest on top.
     PL_INLINE void push(EnteredChild child, const EnteredChild* first) {
         const EnteredChild farther = max_of(child, next_);
         next_ = min_of(child, next_);

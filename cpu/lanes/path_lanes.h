@@ -37,7 +37,7 @@ public:
         return bits(shines & ((integers(points_.front) != 0) | (both_sides != 0)));
     }
     PL_INLINE std::uint32_t scatters() const { return bits(~is_black(albedo())); }
-    /// Counts the vertices. Marks those from `max_depth` on.
+    /// Counts the vertices. Marks the vertices from `max_depth` on.
     PL_INLINE std::uint32_t count(std::uint32_t max_depth, CounterGroup& counters, PathGroup& paths) const {
         const auto vertices = load_lanes<LaneUint>(paths.vertices + first()) + 1u;
         store_lanes(vertices, paths.vertices + first());
@@ -127,7 +127,8 @@ public:
         return mask_bits(~(plays & round.ends)) << first();
     }
 
-    /// Scatters the paths of `lanes` into their directions, see scatter_lambert(). Returns the lanes of those that are lit by it.
+    /// Scatters the paths of `lanes` into their directions, see scatter_lambert(). Returns the lanes of the paths
+    /// that are lit by it.
     PL_INLINE std::uint32_t scatter(const DirectionGroup& directions, std::uint32_t lanes, RayGroup& rays) const {
         const Real3<Lanes> wi = vector(directions.wi);
         const VertexLanes::Scattered to = VertexLanes(vertices_, first()).scatter(directions);

@@ -53,7 +53,7 @@ public:
     }
 
     /// Targets of the training samples that the ends of segments complete, as ExpectedSarsa::observe(). `emitted`: rms() of the emission
-    /// there, of which light samples have their share. Marks the samples, and those that are clamped.
+    /// there, of which light samples have their share. Marks the samples, and the clamped samples.
     PL_INLINE void complete(bool is_indirect, float most, const BlockFloats& emitted, BlockFloats& targets,
                             BlockBits& samples, BlockBits& clamped) const {
         const Real3<Lanes> albedo = vector(vertices_.albedo);

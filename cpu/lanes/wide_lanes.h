@@ -84,8 +84,8 @@ PL_INLINE void trace_one_by_one(const WideView& scene, const RayGroup* rays, std
     }
 }
 
-/// Traces several rays in turn, so that the memory of one arrives while the others are tested. In every round those at
-/// inner nodes go one step, then those at leaves.
+/// Traces several rays in turn, so that the memory of one arrives while the others are tested. In every round the
+/// rays at inner nodes go one step, then the rays at leaves.
 template <bool kAny, class Finish>
 class RaysInFlight {
 public:
@@ -114,7 +114,7 @@ public:
         }
     }
 
-    /// Most rays of a call of trace(): those that memory for prepared ones is there for.
+    /// Most rays of a call of trace(): as many as there is memory for prepared rays.
     static constexpr std::uint32_t kMostRays = 16 * kGroupSize;
 
 private:

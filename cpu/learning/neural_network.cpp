@@ -14,7 +14,7 @@ void activate(std::vector<float>& units) {
     for (std::size_t row = 0; row < units.size(); row += kHiddenRow) activate_units(units.data() + row, kHiddenUnits);
 }
 
-/// Slopes by the sums of hidden units, of those by the units.
+/// Slopes by the sums of hidden units, from the slopes by the units.
 void activate_slopes(const std::vector<float>& units, std::vector<float>& slopes) {
     for (std::size_t row = 0; row < kNetworkBlock; ++row)
         for (std::size_t i = 0; i < kHiddenUnits; ++i)
@@ -101,7 +101,7 @@ TaughtLobe taught_lobe(const float* outputs, Vec3f normal, std::uint32_t k) {
     return taught;
 }
 
-/// Slopes by the outputs of one lobe, of those by b and by v.
+/// Slopes by the outputs of one lobe, from the slopes by b and by v.
 void lobe_slopes(const TaughtLobe& taught, const float* outputs, Vec3f normal, std::uint32_t k, float by_offset,
                  Vec3f by_axis, float* slopes) {
     const float kappa = taught.lobe.kappa;

@@ -106,7 +106,8 @@ private:
         return visits / (visits + kHalfVisits);
     }
 
-    /// Those of the table without the uniform floor, since lobes are nowhere 0. False if the table is nothing else.
+    /// Probabilities of the table without the uniform floor, since lobes are nowhere 0. False if the table has
+    /// nothing but the floor.
     bool fill_probabilities(std::uint32_t volume, float* probability) const {
         const DirectionTable table(view_, static_cast<std::int32_t>(volume));
         const int side = shape_.cells.side;

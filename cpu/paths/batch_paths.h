@@ -64,7 +64,8 @@ private:
 template <class M>
 concept Hookless = std::same_as<M, DefaultMethod>;
 
-/// Methods guided by tables whose hooks are called in lanes, see table_learning.h. Not those derived from them, which may have other hooks.
+/// Methods guided by tables whose hooks are called in lanes, see table_learning.h. Not methods derived from them,
+/// which may have other hooks.
 template <class M>
 concept LaneLearning = TableGuided<M> &&(std::same_as<M, LookedUpAhead<Guided<TableField, ExpectedSarsa>>> ||
                                          std::same_as<M, LookedUpAhead<Guided<TableField, FrozenField>>>);

@@ -1,5 +1,5 @@
 // Directions at the Lambert reflectors of a block, and the densities of directions towards lights, by the means that a method has: SIMD
-// lanes for tables and for the BSDF, else path by path. Those of other vertices are arbitrary.
+// lanes for tables and for the BSDF, else path by path. Directions and densities of other vertices are arbitrary.
 #pragma once
 
 #include "core/kernel/integrator/probe.h"

@@ -105,7 +105,7 @@ private:
     }
 
     Paths<F, M>& paths_;
-    RayBatch rays_;  ///< t_max of those that are not of far lights is 1
+    RayBatch rays_;  ///< t_max is 1, except towards far lights
     std::uint32_t count_ = 0;
     std::vector<BlockBits> lit_;                ///< [block], the paths that have shadow rays
     std::vector<VectorGroup> kept_;             ///< [group], contributions

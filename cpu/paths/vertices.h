@@ -352,7 +352,7 @@ private:
     BlockRows block_{};
     std::uint64_t specular_ = 0;  ///< paths at specular surfaces
     std::uint64_t single_ = 0;    ///< paths whose observations are made path by path
-    std::uint64_t ended_ = 0;  ///< paths that end at a vertex, but for those that roulette or a layered vertex ends
+    std::uint64_t ended_ = 0;     ///< paths that end at a vertex, not by roulette or a layered vertex
     VertexBlock<F, M> vertices_;
     SurfaceBlock surfaces_;        ///< unless the method looks volumes up ahead
     float estimates_[kPathBlock];  ///< of contributions

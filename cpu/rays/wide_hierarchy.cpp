@@ -102,7 +102,7 @@ private:
         return half_area(node) * (kLeafCost + kTriangleCost * static_cast<float>(triangles));
     }
 
-    /// Fills a node, which is there, and appends those below it.
+    /// Fills a node, which is there, and appends the nodes below it.
     void make_below(std::uint32_t root, std::uint32_t narrow_root) {
         std::vector<std::pair<std::uint32_t, std::uint32_t>> tasks{{root, narrow_root}};
         while (!tasks.empty()) {
