@@ -1,6 +1,6 @@
 // Arguments and dispatch tables of the kernels: their interface to host code. Kernels take structures as
-// `const __grid_constant__`, which are read where the launch put them: else each thread would copy to its stack those whose
-// address is taken, and would read through them as memory of unknown kind.
+// `const __grid_constant__`, which are read where the launch put them: else each thread would copy to its stack the
+// structures whose address is taken, and would read through them as memory of unknown kind.
 #pragma once
 
 #include <algorithm>

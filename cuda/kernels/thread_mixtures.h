@@ -16,7 +16,7 @@ struct MixturesOfThreads {
     static PL_HD Location locate(const NetworkField&, const TableLocation& place, const SurfacePoint&) {
         return place;
     }
-    /// That of this thread.
+    /// The mixture of this thread.
     static PL_HD VertexMixture& of(const Location&) {
 #ifdef __CUDA_ARCH__
         // Its size is an odd number of words, so that the threads of a warp read from different banks.
