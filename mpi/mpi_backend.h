@@ -14,8 +14,9 @@ namespace pl {
 /// Makes the back end of a rank: "auto", "cpu", "cuda"; threads 0: all of the rank. Throws Error(Unavailable).
 using RankBackendFactory = std::function<std::unique_ptr<RenderBackend>(const std::string& name, int threads)>;
 
-/// Opens a back end on every rank. Those of the other ranks do the rendering of follow_rank_0(). Films, fields and counters are those
-/// of one rank, to the bit. `share_pixels`: see Shares. Throws Error(Unavailable) with the first rank that has none of this kind.
+/// Opens a back end on every rank. The back ends of the other ranks do the rendering of follow_rank_0(). Films,
+/// fields and counters equal the result of one rank, to the bit. `share_pixels`: see Shares. Throws
+/// Error(Unavailable) with the first rank that has none of this kind.
 std::unique_ptr<RenderBackend> make_mpi_backend(Communicator& ranks, const RankBackendFactory& make,
                                                 const std::string& name, int threads,
                                                 std::uint32_t share_pixels = Shares::kMostPixels);

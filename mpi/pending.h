@@ -6,8 +6,8 @@
 
 namespace pl {
 
-/// Replaces the pending sums of every rank by their sum over all ranks: as a list of those that are not 0, or as whole arrays,
-/// whichever is fewer bytes. Integers: the same sums in any order.
+/// Replaces the pending sums of every rank by their sum over all ranks: as a list of the sums that are not 0, or as
+/// whole arrays, whichever is fewer bytes. Integers: the same sums in any order.
 void sum_pending(Communicator& ranks, ExactBackend& backend, MethodId method);
 
 /// Clears the pending sums of this rank.

@@ -14,7 +14,7 @@ namespace {
 
 constexpr const char* kVariable = "CUDA_VISIBLE_DEVICES";
 
-/// The devices of a list: CUDA sees those before the first that does not exist, by convention -1.
+/// The devices of a list: CUDA sees the devices before the first that does not exist, by convention -1.
 std::vector<std::string> devices_in(std::string_view list) {
     std::vector<std::string> devices;
     while (!list.empty()) {
