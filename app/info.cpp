@@ -85,8 +85,9 @@ std::string triangles_text(const SceneDescription& scene) {
 std::string report_text(const SceneReport& report) {
     const SceneDescription& scene = report.scene;
     const CameraDescription& camera = scene.camera;
-    std::string text = fmt::format("name       {}\nfile       {}\nhash       {}\n", scene.name, scene.source.string(),
-                                   scene_hash(scene));
+    std::string text =
+        fmt::format("name       {}\nabout      {}\nfile       {}\nhash       {}\n", scene.name,
+                    scene.about.empty() ? "nothing said" : scene.about, scene.source.string(), scene_hash(scene));
     text += fmt::format("triangles  {}\nlights     {} triangles\nmaterials  {}\n", triangles_text(scene),
                         report.packed.lights.size(), scene.materials.size());
     for (const MaterialDescription& material : scene.materials)
@@ -152,6 +153,7 @@ Json json_of(const SceneReport& report) {
     for (const EffectRow& effect : report.effects)
         effects.push_back({{"name", effect.name}, {"reason", effect.reason}});
     Json json{{"name", scene.name},
+              {"about", scene.about},
               {"file", scene.source.string()},
               {"scene_hash", scene_hash(scene)},
               {"triangles", scene.triangles.size()},

@@ -90,6 +90,7 @@ ui::ViewerOptions viewer_options(const CommandLine& line, const Options& options
     viewer.limits = {.spp = options.spp.value_or(0), .seconds = options.time_limit_seconds.value_or(0.0)};
     viewer.scene_name = options.scene;
     viewer.scenes = list_scenes(find_assets_dir());
+    viewer.scenes_folder = find_assets_dir() / "scenes";
     viewer.scene = loaded.scene;
     viewer.load_seconds = loaded.load_seconds;
     viewer.camera_from_scene = false;  // resolved already

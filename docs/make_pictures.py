@@ -1,13 +1,16 @@
 #!/usr/bin/env python3
 """Makes the pictures of the documents with the program, as PNGs of 256 colors.
 
-Usage: make_pictures.py PROGRAM [NAME...]   NAME is window, tour, error-map, door, effects, cells or learning; default: all
+Usage: make_pictures.py PROGRAM [NAME...]   NAME is window, tour, error-map, door, effects, cells, learning or scenes; default: all
 
 For the first three the viewer plays pictures/NAME.script on SDL's dummy driver, so no display is needed; every `shot` of a script becomes
 a picture. `door` and `effects` are renderings, side by side where they are several. `cells` is what a volume has learned after more and
 more passes, at its right the truth. `learning` is animated, and wants a quiet machine: each of its frames is `default` and
-`reinforcement` after the same time.
+`reinforcement` after the same time. `scenes` are the small pictures of all scenes that come with the program, beside their files, for the
+list of scenes and for the window. Each has as text what the scene file tells about the scene, and the hash by which a test finds pictures
+of scenes that have changed.
 """
+import json
 import os
 import re
 import struct
@@ -38,6 +41,8 @@ CELLS = ["cornell", "--nee", "off", "--at", "400,0,200", "--size", "256x256", "-
 PASSES = [1, 4, 16, 64]
 LEARNED, TRUE = (20, 264, 388, 396), (448, 264, 388, 396)
 COLORS = 256
+SCENES = DOCS.parent / "assets" / "scenes"
+SCENE_OPTIONS = ["--method", "reinforcement", "--nee", "on", "--spp", "512", "--size", "128x128"]
 
 
 def paeth(left, up, corner):
@@ -55,19 +60,24 @@ def unfiltered(kind, line, above, step):
     return row
 
 
-def read_png(path):
-    """Width, height and the (r, g, b) of all pixels of an 8-bit RGB or RGBA PNG."""
-    data = path.read_bytes()
-    place, packed = 8, b""
+def chunks_of(path):
+    """Kind and body of all chunks of a PNG."""
+    data, place = path.read_bytes(), 8
     while place < len(data):
         size, kind = struct.unpack(">I4s", data[place:place + 8])
-        body = data[place + 8:place + 8 + size]
+        yield kind, data[place + 8:place + 8 + size]
+        place += 12 + size
+
+
+def read_png(path):
+    """Width, height and the (r, g, b) of all pixels of an 8-bit RGB or RGBA PNG."""
+    packed = b""
+    for kind, body in chunks_of(path):
         if kind == b"IHDR":
             width, height, depth, color = struct.unpack(">IIBB", body[:10])
             if depth != 8 or color not in (2, 6):
                 sys.exit(f"{path}: expected 8 bits of RGB or RGBA, got {depth} bits of color type {color}")
         packed += body if kind == b"IDAT" else b""
-        place += 12 + size
     step = 3 if color == 2 else 4
     raw, stride = zlib.decompress(packed), width * step + 1
     pixels, above = [], bytearray(width * step)
@@ -121,14 +131,16 @@ def halved(picture, box):
     return wide // 2, high // 2, [tuple(sum(channel) // 4 for channel in zip(*block)) for block in blocks]
 
 
-def shrink(frames, target):
+def shrink(frames, target, texts=()):
     """Writes pictures as one PNG of a palette: colors that differ in the last bit only count as equal. Each frame is a list of pictures
-    side by side; several are an animation that lasts a second for each. [PNG specification, third edition, section 11.3.6]"""
+    side by side; several are an animation that lasts a second for each. `texts` are bodies of text chunks.
+    [PNG specification, third edition, section 11.3.6]"""
     pictures = [side_by_side(frame) for frame in frames]
     width, height = pictures[0][:2]
     pictures = [[(r & 254, g & 254, b & 254) for r, g, b in pixels] for _, _, pixels in pictures]
     colors, index = palette_of(sum(map(Counter, pictures), Counter()))
     chunks = [chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 3, 0, 0, 0))]
+    chunks += [chunk(b"tEXt", text) for text in texts]
     if len(frames) > 1:
         chunks.append(chunk(b"acTL", struct.pack(">II", len(frames), 0)))
     chunks.append(chunk(b"PLTE", b"".join(map(bytes, colors))))
@@ -153,6 +165,16 @@ def render(program, name):
         for scene, file in zip(scenes, files):
             subprocess.run([program, "render", scene, "-o", file, *options, "--backend", "cpu", "--quiet"], check=True)
         shrink([[read_png(file) for file in files]], DOCS / "images" / f"{name}.png")
+
+
+def picture_scenes(program, _):
+    with tempfile.TemporaryDirectory() as work:
+        file = Path(work) / "scene.png"
+        for folder in sorted(path.parent for path in SCENES.glob("*/*.json")):
+            subprocess.run([program, "render", folder.name, "-o", file, *SCENE_OPTIONS, "--backend", "cpu", "--quiet"], check=True)
+            about = json.loads((folder / f"{folder.name}.json").read_text())["about"]
+            kept = [body for kind, body in chunks_of(file) if kind == b"tEXt" and body.startswith(b"picture_hash\0")]
+            shrink([[read_png(file)]], folder / f"{folder.name}.png", [*kept, b"about\0" + about.encode("latin-1")])
 
 
 def inspect(program, name):
@@ -188,12 +210,13 @@ def play(program, name):
 
 
 def main():
-    names = [*PICTURES, *RENDERINGS, "cells", "learning"]
+    names = [*PICTURES, *RENDERINGS, "cells", "learning", "scenes"]
     if len(sys.argv) < 2 or set(sys.argv[2:]) - set(names):
         sys.exit(__doc__)
     program = str(Path(sys.argv[1]).resolve())
     for name in sys.argv[2:] or names:
-        (play if name in PICTURES else render if name in RENDERINGS else inspect if name == "cells" else animate)(program, name)
+        makers = {"cells": inspect, "learning": animate, "scenes": picture_scenes}
+        (play if name in PICTURES else makers.get(name, render))(program, name)
 
 
 if __name__ == "__main__":

@@ -105,7 +105,6 @@ private:
     void answer_requests();
     WindowMemory memory_now() const;
     void reset_window();
-    void set_folders(const std::filesystem::path& folder);
     bool is_first_look() const { return options_.is_free && memory_.is_new(); }
     void show_learning();
     Layout current_layout() const;
@@ -139,7 +138,8 @@ Viewer::Viewer(const ViewerOptions& options, std::shared_ptr<const SceneDescript
       model_(options, scene, first_settings(*scene), load_seconds) {
     model_.messages().note(MessageLevel::Info, "window drawn by " + display_.renderer_name());
     restore(memory_.last(), model_);
-    if (const auto file = memory_file(options); !file.empty()) set_folders(file.parent_path());
+    if (const auto file = memory_file(options); !file.empty())
+        model_.bookmarks().set_folder(file.parent_path() / "cameras");
     if (!memory_.problem().empty()) model_.messages().say(MessageLevel::Warning, memory_.problem());
     model_.window().ui_scale = display_.ui_scale();
     if (options.remember && (!options.script || is_first_look())) model_.tour().offer();
@@ -155,12 +155,6 @@ void Viewer::show_learning() {
     constexpr float kBright = 1.25f;  // stops: the Cornell box is dark at 0
     model_.display().set_exposure(kBright);
     model_.comparison().set_turns(true);
-}
-
-/// The folders remembered beside the window's state.
-void Viewer::set_folders(const std::filesystem::path& folder) {
-    model_.open_dialog().gallery().set_folder(folder / "thumbnails");
-    model_.bookmarks().set_folder(folder / "cameras");
 }
 
 Layout Viewer::current_layout() const {

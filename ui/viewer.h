@@ -105,8 +105,9 @@ struct ViewerOptions {
     RenderSettings settings;
     DisplaySettings display;
     SampleLimits limits;
-    std::string scene_name;             ///< as load_scene takes it, at the start
-    std::vector<std::string> scenes{};  ///< names that the dialog offers
+    std::string scene_name;                 ///< as load_scene takes it, at the start
+    std::vector<std::string> scenes{};      ///< names that the dialog offers
+    std::filesystem::path scenes_folder{};  ///< of their pictures, NAME/NAME.png, with what they show as text "about"
     /// The scene if it is loaded already; otherwise it is loaded before the window opens.
     std::shared_ptr<const SceneDescription> scene;
     double load_seconds = 0.0;                  ///< of `scene`
@@ -132,7 +133,7 @@ struct ViewerOptions {
     /// Called on the render thread when a back end is first selected; no other uses it while that one runs. Throws
     /// Error(Unavailable). Should leave one hardware thread to the window if there are several.
     BackendFactory make_backend;
-    /// The same for any thread: for references, thumbnails and the self test, beside the picture of the window.
+    /// The same for any thread: for references and the self test, beside the picture of the window.
     BackendFactory make_side_backend;
     /// A scene by name. Throws Error: Input with file and line, Usage for an unknown knob or a value out of its range.
     /// Called on helper threads after the start.

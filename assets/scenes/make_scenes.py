@@ -21,6 +21,7 @@ FOLDER = Path(__file__).resolve().parent
 
 def shelter():
     s = Scene("shelter", "Shelter",
+              "three lamps behind boards and pillars in a large sealed room",
               "A sealed 4 x 4 x 6 room with a roof on four pillars. Three lamps on the walls, a board in front of each.",
               ([-1, -0.2, 0.9], [-1, 0.35, -4], [0, 1, 0], 60),
               {"white": (0.75, None), "blue": ((0.15, 0.15, 0.75), None), "red": ((0.75, 0.15, 0.15), None),
@@ -58,6 +59,7 @@ def shelter():
 
 def pillars():
     s = Scene("pillars", "Pillars",
+              "two glowing pillars between dark walls: absorbing paths, high contrast",
               "A sealed 4 x 4 x 6 room with dark long walls. Pillars and blocks stand out of its end wall; two pillars glow.",
               ([-1, 1, 0.4], [-1, 1, -5], [0, 1, 0], 53.1301),
               {"dark": (0.1, None), "light": (0.9, None), "red": ((0.9, 0.15, 0.15), None), "lamp": (BLACK, 12)},
@@ -105,6 +107,7 @@ def cornell_block(s, block, material):
 
 def indirect():
     s = Scene("indirect", "Cornell box, lit by its ceiling",
+              "the Cornell box, its light in a tray under the ceiling, facing up",
               "The measured Cornell box (see ../cornell) with its light in a tray under the ceiling, facing upwards.",
               CORNELL_CAMERA, CORNELL, unit="millimeter",
               settings={"exposure": 1.5})
@@ -138,6 +141,7 @@ def tray(s, low, high, wall, material):
 
 def labyrinth():
     s = Scene("labyrinth", "Labyrinth",
+              "a folded corridor with four bends, a small lamp at its end: light that is many bounces away",
               "A sealed corridor, 1 wide and folded twice, so four bends; a small lamp at its far end.",
               ([-1.1, 0.85, -0.12], [0.45, 0.7, -0.75], [0, 1, 0], 75),
               {"white": (0.9, None), "red": ((0.9, 0.55, 0.45), None), "blue": ((0.5, 0.65, 0.9), None),
@@ -160,6 +164,7 @@ def labyrinth():
 
 def thin_wall():
     s = Scene("thin-wall", "Thin wall",
+              "a thin wall between a bright and a dark half: volumes of one side must not serve the other",
               "A sealed room whose halves are parted by a thin wall, open at the camera's end. The lamp is in the right half.",
               ([-0.6, 1.3, -0.12], [-0.3, 1.05, -4], [0, 1, 0], 82),
               {"white": (0.75, None), "orange": ((0.8, 0.45, 0.2), None), "blue": ((0.35, 0.5, 0.8), None),
@@ -182,6 +187,7 @@ def thin_wall():
 
 def two_lights():
     s = Scene("two-lights", "Two lights",
+              "a table between two equal lamps: two directions matter alike",
               "A sealed dark room; two small lamps of equal power face each other across a table.",
               ([0, 1.5, 2.8], [0, 0.75, -1], [0, 1, 0], 55),
               {"gray": (0.4, None), "white": (0.8, None), "housing": (0.2, None), "lamp": (BLACK, 60)})
@@ -207,6 +213,7 @@ def two_lights():
 
 def boxed_lights():
     s = Scene("boxed-lights", "Boxed lights",
+              "twenty small boxes, a lamp in each, three of them face the viewer: many lights, mostly hidden",
               "A sealed room with twenty small boxes, a lamp at the bottom of each and a lid ajar. Three face the viewer.",
               ([0.15, 2.1, 1.9], [0, 0.1, -0.8], [0, 1, 0], 58),
               {"white": (0.7, None), "wood": ((0.6, 0.42, 0.25), None), "lid": ((0.3, 0.4, 0.65), None),
@@ -261,6 +268,7 @@ def boxed_light(s, name, center, way, lid):
 
 def staircase():
     s = Scene("staircase", "Staircase",
+              "three storeys joined by stairs of many boxes, the lamp under the topmost ceiling",
               "Three sealed storeys of 3 meters, joined by two flights of stairs; the lamp is under the topmost ceiling.",
               ([-1.8, 1.3, 2.2], [1.2, 1.75, -0.9], [0, 1, 0], 80),
               {"white": (0.8, None), "wood": ((0.65, 0.4, 0.2), None), "steel": (0.5, None), "lamp": (BLACK, 60)}, settings={"exposure": 1.5})
@@ -303,6 +311,7 @@ def flight(s, storey, side, ground):
 
 def open_box():
     s = Scene("open-box", "Open box",
+              "an open box under a large lamp: mostly direct light",
               "A box of 2 x 2 x 2, open towards the camera, with a large lamp in its ceiling: mostly direct light.",
               ([0, 1, 2.9], [0, 1, 0], [0, 1, 0], 50),
               {"white": (0.75, None), "red": ((0.65, 0.1, 0.08), None), "green": ((0.15, 0.5, 0.12), None),
@@ -322,6 +331,7 @@ def open_box():
 
 def sky():
     s = Scene("sky", "Under the sky",
+              "blocks under an even sky: most paths find light at once",
               "A ground of 40 x 40 with a few blocks under an even sky.",
               ([3.4, 2.4, 5.8], [0.35, 0.7, 0], [0, 1, 0], 40),
               {"ground": (0.5, None), "white": (0.8, None), "red": ((0.75, 0.2, 0.15), None),
@@ -344,6 +354,7 @@ def sky():
 
 def ceiling():
     s = Scene("ceiling", "Bright ceiling",
+              "a furnished room under a ceiling that is mostly lamp",
               "A sealed room with a table and a cupboard under one lamp as large as most of its ceiling.",
               ([-1.6, 1.5, 1.9], [0.5, 0.7, -1.2], [0, 1, 0], 65),
               {"white": (0.7, None), "wood": ((0.6, 0.4, 0.22), None), "green": ((0.25, 0.5, 0.3), None),
@@ -364,6 +375,7 @@ def ceiling():
 
 def spheres():
     s = Scene("spheres", "Cornell box with spheres",
+              "the Cornell box with a mirror and a glass sphere: caustics",
               "The measured Cornell box with a mirror and a glass sphere in the place of its blocks.", CORNELL_CAMERA,
               {**CORNELL, "mirror": (BLACK, None, "Ks 0.95 0.95 0.95", "illum 3"),
                "glass": (BLACK, None, "Tf 1 1 1", "Ni 1.5", "illum 7")}, unit="millimeter")
@@ -378,6 +390,7 @@ def spheres():
 
 def plates():
     s = Scene("plates", "Roughness ladder",
+              "four metal plates from smooth to rough under four lamps of equal power: which strategy finds which light (after E. Veach)",
               "Four lamps of equal power and different size, and four metal plates of different roughness that show them.",
               ([0, 1.4, 6.4], [0, 0.75, 0], [0, 1, 0], 40),
               {"wall": (0.35, None), **{f"plate_{i}": (BLACK, None, "Pm 1", f"Ks {c}", f"Pl_roughness {r}") for i, (r, c) in
@@ -403,6 +416,7 @@ def plates():
 
 def coats():
     s = Scene("coats", "Coats and metals",
+              "blocks and spheres of lacquer, satin plastic, brushed copper, frosted glass",
               "The room of the measured Cornell box with blocks of plastic and metal, smooth and rough.", CORNELL_CAMERA,
               {**CORNELL, "lacquer": ((0.1, 0.2, 0.6), None, "Ks 1 1 1", "Pl_surface plastic", "Pl_roughness 0", "Pl_ior 1.5"),
                "satin": ((0.65, 0.5, 0.15), None, "Ks 1 1 1", "Pl_surface plastic", "Pl_roughness 0.4", "Pl_ior 1.5"),
@@ -452,6 +466,7 @@ def sky_radiance(x, y):
 
 def textured_room():
     s = Scene("textured-room", "Textured room",
+              "sky and sun through a window behind a lattice: textures, holes, an environment map",
               "A room of 4 x 2.6 x 5 m with a wooden ground and wallpaper, lit by sky and a hazy sun through a window on its right;\n"
               "before the window a lattice, which is an image with holes.",
               ([-1.3, 1.5, 2.3], [0.35, 1.0, -1.2], [0, 1, 0], 65),
@@ -491,6 +506,7 @@ def textured_room():
 
 def lens():
     s = Scene("lens", "Thin lens",
+              "a row of balls that leads away from a lens with an aperture",
               "A row of balls and blocks that leads away from the camera, whose lens is sharp at the third ball.",
               ([0.75, 1.1, 4.2], [0.1, 0.35, 0.4], [0, 1, 0], 32),
               {"ground": (0.6, None), "red": ((0.7, 0.12, 0.1), None), "blue": ((0.12, 0.25, 0.65), None),
@@ -513,6 +529,7 @@ def lens():
 
 def gallery():
     s = Scene("gallery", "Gallery",
+              "a long hall under sixty small lamps, a stronger one at its end: which lamp matters depends on where one stands",
               "A long hall under sixty small lamps, with one at its far end that is stronger than all of them.",
               ([0.6, 1.7, 9.5], [-0.1, 1.15, 0], [0, 1, 0], 50),
               {"plaster": (0.7, None), "floor": ((0.45, 0.33, 0.22), None), "stone": ((0.5, 0.52, 0.55), None),

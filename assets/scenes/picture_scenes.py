@@ -109,6 +109,7 @@ def books(s, low, high, dice, colors):
 
 def living_room():
     s = Scene("living-room", "Living room",
+              "a furnished room by day: sky and sun through one large window",
               "A furnished room of 5.2 x 2.7 x 6 m by day: sky and sun through one large window on its left, a blind above it.",
               ([1.7, 1.45, 2.9], [0.02, 0.86, -1.3], [0, 1, 0], 58),
               {"wall": ((0.78, 0.76, 0.72), None), "accent": ((0.34, 0.42, 0.42), None), "ceiling": (0.82, None),
@@ -281,6 +282,7 @@ def living_things(s):
 
 def still_life():
     s = Scene("still-life", "Still life",
+              "glass, copper, silver and fruit on a table under a soft lamp, by a lens: caustics",
               "Glass, copper, silver and fruit on a table with a cloth, lit by a large soft lamp from the left.",
               ([0.08, 0.5, 1.55], [0.02, 0.135, 0], [0, 1, 0], 23),
               {"wall": ((0.16, 0.14, 0.13), None), "table": (0.75, None, *plastic(0.35), "map_Kd boards.png"),
@@ -415,6 +417,7 @@ def bricks(x, y):
 
 def bar():
     s = Scene("bar", "Bar",
+              "a bar by night under 41 lamps of five kinds, which a mirror doubles",
               "A bar of 7 x 3.1 x 11 m by night: pendant lamps over counter and tables, candles, strips of light behind bottles,\n"
               "lamps on the wall; a mirror on the end wall doubles them.",
               ([1.75, 1.55, 4.6], [-0.5, 1.2, -1.2], [0, 1, 0], 55),

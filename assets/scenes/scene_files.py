@@ -55,10 +55,10 @@ class Scene:
     SIDES = {"left": (0, 4, 6, 2), "right": (5, 1, 3, 7), "bottom": (0, 1, 5, 4), "top": (6, 7, 3, 2),
              "back": (1, 0, 2, 3), "front": (4, 5, 7, 6)}
 
-    def __init__(self, name, title, about, camera, materials, unit="meter", **more):
+    def __init__(self, name, title, shows, about, camera, materials, unit="meter", **more):
         self.name, self.about, self.unit = name, about, unit
         self.materials = materials
-        self.json = {"schema": "pathlight.scene/1", "name": title, "obj": f"{name}.obj",
+        self.json = {"schema": "pathlight.scene/1", "name": title, "about": shows, "obj": f"{name}.obj",
                      "camera": dict(zip(("eye", "target", "up", "fov_deg"), camera)), **more}
         self.lines, self.vertices, self.normals, self.uvs, self.triangles = [], 0, 0, 0, 0
         self.images = {}  # file name -> bytes

@@ -38,7 +38,7 @@ class RenderLink {
 public:
     /// Reasons for rendering to rest. Background work would slow down timed passes, so rendering and its clocks rest
     /// during it.
-    enum class Hold { User, Reference, Diagnostics, SelfTest, Gallery };
+    enum class Hold { User, Reference, Diagnostics, SelfTest };
 
     explicit RenderLink(WorkerSetup setup) : worker_(std::move(setup)), status_(worker_.status()) {}
 

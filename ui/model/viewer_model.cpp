@@ -52,7 +52,6 @@ void ViewerModel::update(double seconds) {
     camera_.update(seconds);
     link_.update();
     scene_.update();
-    open_dialog_.update();
     files_.pictures().update();
     link_.worker().set_values_wanted(window_.values_shown || files_.pictures().is_waiting() ||
                                      exposure_.needs_values());

@@ -205,10 +205,10 @@ void draw_choice(OpenDialog& dialog, const std::string& name, const std::string&
 }
 
 /// A picture with its name below, in the rectangle from `low` to `high`.
-void draw_picture(const std::string& name, const std::shared_ptr<const ByteImage>& picture, ImVec2 low, ImVec2 high) {
+void draw_card(const std::string& name, const SceneCard* card, ImVec2 low, ImVec2 high) {
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const ImVec2 corner{high.x, high.y - ImGui::GetTextLineHeight() - em(0.2f)};
-    SDL_Texture* const texture = picture ? gui_memory().textures->of(picture) : nullptr;
+    SDL_Texture* const texture = card != nullptr ? gui_memory().textures->of(card->picture) : nullptr;
     if (texture != nullptr)
         list.AddImage(to_texture_id(texture), low, corner);
     else
@@ -216,14 +216,15 @@ void draw_picture(const std::string& name, const std::shared_ptr<const ByteImage
     list.AddText({low.x, corner.y + em(0.1f)}, colors::kText, name.c_str());
 }
 
-/// All known scenes, as many in a row as fit.
-void draw_gallery(OpenDialog& dialog, ImVec2 size) {
+/// All known scenes, as many in a row as fit. Returns the one under the pointer, else the chosen one.
+std::string draw_gallery(OpenDialog& dialog, ImVec2 size) {
     begin_part("scenes", size);
     const float gap = em(0.6f);
     const float room = ImGui::GetContentRegionAvail().x;
-    const int columns = std::max(static_cast<int>((room + gap) / (em(8.0f) + gap)), 1);
+    const int columns = std::max(static_cast<int>((room + gap) / (em(7.0f) + gap)), 1);
     const float width = std::floor((room + gap) / static_cast<float>(columns) - gap);
-    const float height = std::floor(0.75f * width) + ImGui::GetTextLineHeight() + em(0.2f);
+    const float height = width + ImGui::GetTextLineHeight() + em(0.2f);
+    std::string looked_at = dialog.choice();
     int column = 0;
     for (const std::string& name : dialog.scenes()) {
         ImGui::PushID(name.c_str());
@@ -232,12 +233,14 @@ void draw_gallery(OpenDialog& dialog, ImVec2 size) {
         const bool clicked = ImGui::Selectable("##scene", dialog.choice() == name,
                                                ImGuiSelectableFlags_AllowDoubleClick, {width, height});
         note_place(("open: " + name).c_str());
-        draw_picture(name, dialog.gallery().picture(name), low, {low.x + width, low.y + height});
+        if (ImGui::IsItemHovered()) looked_at = name;
+        draw_card(name, dialog.card(name), low, {low.x + width, low.y + height});
         answer_click(dialog, name, clicked);
         column = (column + 1) % columns;
         ImGui::PopID();
     }
     ImGui::EndChild();
+    return looked_at;
 }
 
 void draw_recent(OpenDialog& dialog, const RecentFiles& recent, ImVec2 size) {
@@ -282,14 +285,15 @@ void draw_field(OpenDialog& dialog) {
     note_place("open: button");
 }
 
-void draw_hint(const OpenDialog& dialog) {
-    if (dialog.gallery().is_working())
-        faint_text(
-            fmt::format("Rendering pictures of the scenes, {} of {}; the picture in the window rests meanwhile.",
-                        dialog.gallery().size(), dialog.scenes().size())
-                .c_str());
+/// Two lines high, so that no button moves.
+void draw_hint(const SceneCard* card, const std::string& scene) {
+    const float top = ImGui::GetCursorPosY();
+    if (card != nullptr)
+        faint_text((scene + ": " + card->about).c_str());
     else
         faint_text("A double click or Enter opens, Esc closes. Files can also be dropped on the window.");
+    ImGui::SetCursorPosY(top + 2.0f * ImGui::GetTextLineHeightWithSpacing());
+    ImGui::Dummy({0.0f, 0.0f});
 }
 
 }  // namespace
@@ -301,7 +305,7 @@ void draw_open_dialog(ViewerModel& model, const Layout& layout) {
     const float height = std::clamp(screen_size(layout).y - em(12.0f), em(8.0f), em(27.0f));
     const float gap = ImGui::GetStyle().ItemSpacing.x;
     const float width = ImGui::GetContentRegionAvail().x - gap;
-    draw_gallery(dialog, {0.6f * width, height});
+    const std::string looked_at = draw_gallery(dialog, {0.6f * width, height});
     ImGui::SameLine();
     ImGui::BeginGroup();
     const float part = 0.4f * (height - ImGui::GetStyle().ItemSpacing.y);
@@ -309,7 +313,7 @@ void draw_open_dialog(ViewerModel& model, const Layout& layout) {
     draw_files(dialog, {0.4f * width, height - part - ImGui::GetStyle().ItemSpacing.y});
     ImGui::EndGroup();
     draw_field(dialog);
-    draw_hint(dialog);
+    draw_hint(dialog.card(looked_at), looked_at);
     ImGui::End();
 }
 

@@ -282,7 +282,7 @@ constexpr std::array kValues{
     Value{"dialog", [](const ViewerModel& m) { return word(m.open_dialog().is_shown()); }},
     Value{"open_choice", [](const ViewerModel& m) { return m.open_dialog().choice(); }},
     Value{"typing", [](const ViewerModel&) { return word(ImGui::GetIO().WantTextInput); }},
-    Value{"thumbnails", [](const ViewerModel& m) { return fmt::format("{}", m.open_dialog().gallery().shown()); }},
+    Value{"thumbnails", [](const ViewerModel& m) { return fmt::format("{}", m.open_dialog().card_count()); }},
     Value{"folder", [](const ViewerModel& m) { return m.open_dialog().listing().folder.string(); }},
     Value{"knobs", [](const ViewerModel& m) { return knob_text(m.scene().knobs()); }},
     Value{"shown_knobs",
