@@ -72,6 +72,7 @@ std::vector<Action> actions_after_methods() {
         {ExposureDown, Group::View, "[", "half a stop darker", {at(SDL_SCANCODE_LEFTBRACKET)}},
         {ExposureUp, Group::View, "]", "half a stop brighter", {at(SDL_SCANCODE_RIGHTBRACKET)}},
         {FollowExposure, Group::View, "O", "automatic exposure on or off", {sign(SDLK_o)}},
+        {Denoise, Group::View, "Shift+N", "denoised preview of the first samples on or off", {sign(SDLK_n, kShift)}},
         {Zoom, Group::View, "Z", "zoom to single pixels, or the whole picture", {sign(SDLK_z)}},
         {Magnify, Group::View, "M", "magnifier beside the pointer, while held", {sign(SDLK_m)}, true},
 

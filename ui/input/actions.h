@@ -73,6 +73,7 @@ enum class ActionId {
     NextBookmark,
     PreviousBookmark,
     PlayPath,
+    Denoise,
     Zoom,
     Magnify,
     FollowExposure,

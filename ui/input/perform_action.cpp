@@ -138,6 +138,7 @@ bool perform_display_action(ViewerModel& model, ActionId id) {
     case ActionId::ExposureDown: step_exposure(display, -kExposureStep); return true;
     case ActionId::ExposureUp: step_exposure(display, kExposureStep); return true;
     case ActionId::FollowExposure: model.exposure().set_on(!model.exposure().is_on()); return true;
+    case ActionId::Denoise: display.set_denoises(!display.denoises()); return true;
     case ActionId::Zoom: window.requests.zoom = true; return true;
     case ActionId::Cells: display.set_cells(!display.cells()); return true;
     case ActionId::CellsFainter: step_opacity(display, -kOpacityStep); return true;
@@ -213,6 +214,7 @@ bool is_on(const ViewerModel& model, const Action& action) {
     case ActionId::NextEvent: return model.render().settings().next_event;
     case ActionId::Pause: return model.render().paused();
     case ActionId::FollowExposure: return model.exposure().is_on();
+    case ActionId::Denoise: return model.display().denoises();
     case ActionId::Zoom: return !window.zoom.is_whole();
     case ActionId::Cells: return model.display().cells();
     case ActionId::Hemisphere: return window.hemisphere;

@@ -45,6 +45,9 @@ public:
     /// Then also a preview in place of a picture without light samples; see MotionPreview.
     bool preview() const { return preview_; }
     void set_preview(bool allowed);
+    /// Frames of few samples are shown denoised, see DenoisedPreview.
+    bool denoises() const { return denoises_; }
+    void set_denoises(bool on) { denoises_ = on; }
 
 private:
     DisplaySettings settings_;
@@ -58,6 +61,7 @@ private:
     mutable std::uint64_t ranged_frame_ = 0;  ///< serial of its frame
     bool low_resolution_ = true;
     bool preview_ = true;
+    bool denoises_ = true;
 };
 
 // The distribution of a picture's luminance, on a logarithmic scale.

@@ -36,6 +36,7 @@ ViewerModel::ViewerModel(const ViewerOptions& options, std::shared_ptr<const Sce
       flowers_(link_, time_), gain_marks_(link_), exposure_(link_, display_),
       bookmarks_({options, messages_, jobs_, link_}, scene_, camera_), flight_(bookmarks_, camera_, messages_),
       sequence_({options, messages_, jobs_, link_}, bookmarks_, camera_, render_, files_.pictures()) {
+    link_.worker().set_denoised_wanted(display_.denoises());
     if (options.field) link_.worker().submit(EditLearned{options.field});
     for (const std::string& warning : scene->warnings) messages_.say(MessageLevel::Warning, warning);
     messages_.note(MessageLevel::Info,
@@ -55,6 +56,7 @@ void ViewerModel::update(double seconds) {
     files_.pictures().update();
     link_.worker().set_values_wanted(window_.values_shown || files_.pictures().is_waiting() ||
                                      exposure_.needs_values());
+    link_.worker().set_denoised_wanted(display_.denoises() && comparison_.state().mode == CompareMode::Off);
     exposure_.update();
     bookmarks_.update();
     flight_.update(seconds);
@@ -86,6 +88,12 @@ Vec3f ViewerModel::orbit_center() const {
 bool ViewerModel::busy() const {
     return jobs_.pending() > 0 || files_.pictures().is_waiting() || references_.is_making() ||
            diagnostics_.is_searching() || self_test_.run().is_running() || sequence_.progress().has_value();
+}
+
+bool ViewerModel::shows_denoised() const {
+    return frame() != nullptr && frame()->denoised.width > 0 && display_.denoises() &&
+           comparison_.state().mode == CompareMode::Off && window_.zoom.is_whole() && !window_.requests.window_shot &&
+           !window_.requests.view_shot;
 }
 
 std::string ViewerModel::title() const {

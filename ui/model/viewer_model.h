@@ -92,6 +92,8 @@ public:
 
     /// Background work or unsaved files.
     bool busy() const;
+    /// Whether the picture is shown denoised: never beside another, pixel by pixel, or in a file.
+    bool shows_denoised() const;
     /// The window's title.
     std::string title() const;
     /// Whether a dialog lies over the window: it has the keyboard.

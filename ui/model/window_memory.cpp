@@ -148,7 +148,8 @@ void write_memory(const WindowMemory& memory, Json& document) {
     document["display"] = {{"hemisphere", memory.hemisphere},
                            {"tint_opacity", short_decimal(memory.tint_opacity)},
                            {"coarser_in_motion", memory.coarser_in_motion},
-                           {"preview_in_motion", memory.preview_in_motion}};
+                           {"preview_in_motion", memory.preview_in_motion},
+                           {"denoised_preview", memory.denoised_preview}};
     document["plot"] = {{"metric", kMetricNames[static_cast<std::size_t>(memory.plot.metric)]},
                         {"axis", kAxisNames[static_cast<std::size_t>(memory.plot.axis)]}};
     document["recent"] = memory.recent;
@@ -169,6 +170,7 @@ WindowMemory memory_in(const Json& document, const WindowMemory& first, const st
     display.read("tint_opacity", memory.tint_opacity, 0.0f, 1.0f);
     display.read("coarser_in_motion", memory.coarser_in_motion);
     display.read("preview_in_motion", memory.preview_in_motion);
+    display.read("denoised_preview", memory.denoised_preview);
     const Members plot = file.object("plot");
     plot.read("metric", memory.plot.metric, kMetricNames);
     plot.read("axis", memory.plot.axis, kAxisNames);
@@ -190,6 +192,7 @@ WindowMemory memory_of(const ViewerModel& model, const WindowMemory& before) {
     memory.tint_opacity = model.display().cells_opacity();
     memory.coarser_in_motion = model.display().low_resolution();
     memory.preview_in_motion = model.display().preview();
+    memory.denoised_preview = model.display().denoises();
     const AccuracyModel& accuracy = model.comparison().accuracy();
     memory.plot = {accuracy.wanted_metric(), accuracy.kind().axis};
     memory.recent = model.scene().recent().names();
@@ -209,6 +212,7 @@ void restore(const WindowMemory& memory, ViewerModel& model) {
     model.display().set_cells_opacity(memory.tint_opacity);
     model.display().set_low_resolution(memory.coarser_in_motion);
     model.display().set_preview(memory.preview_in_motion);
+    model.display().set_denoises(memory.denoised_preview);
     model.comparison().accuracy().set_metric(memory.plot.metric);
     model.comparison().accuracy().set_axis(memory.plot.axis);
 }

@@ -29,6 +29,7 @@ struct WindowMemory {
     float tint_opacity = DisplayControls::kStandardOpacity;
     bool coarser_in_motion = true;
     bool preview_in_motion = true;
+    bool denoised_preview = true;
     CurveKind plot;
     std::vector<std::string> recent{};
     int tour_step = 0;              ///< of the guided tour, where it continues

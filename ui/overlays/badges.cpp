@@ -118,6 +118,8 @@ void add_picture_badges(BadgeRow& row, const ViewerModel& model, const Published
     } else if (is_heat_map(view)) {
         row.add_heat_legend(legend(view, frame.range));
     }
+    if (model.shows_denoised())
+        row.add(fmt::format("denoised preview, {:.0f} ms", 1000.0 * frame.denoise_seconds), colors::kWarning);
     if (frame.divider > 1) row.add(fmt::format("1/{} of the resolution", frame.divider), colors::kWarning);
 }
 

@@ -219,6 +219,13 @@ void draw_window_displays(ViewerModel& model) {
                    &preview))
         model.display().set_preview(preview);
     ImGui::EndDisabled();
+    bool denoises = model.display().denoises();
+    if (toggle_row(
+            "Denoised preview",
+            "Shift+N: while moving and below 16 samples the CPU's picture is shown smoothed along its surfaces. "
+            "A badge says so; films, errors, files and compared pictures are never denoised.",
+            &denoises))
+        model.display().set_denoises(denoises);
 }
 
 /// In both layouts: who cannot read the window does not look for more settings.

@@ -49,7 +49,7 @@ void ImageLayer::fill(const ViewerModel& model, const Key& key) {
             write_heat(frame.snapshot, key.heat, out, pitch);
             write_cells(key.overlay, frame.snapshot.width, frame.snapshot.height, out, pitch);
         } else {
-            write_picture(frame.picture, key.overlay, out, pitch);
+            write_picture(key.is_denoised ? frame.denoised : frame.picture, key.overlay, out, pitch);
         }
         if (key.diagnostics) diagnose::mark_diagnostics(*key.diagnostics, {out, pitch});
     });
@@ -59,7 +59,7 @@ void ImageLayer::draw(const ViewerModel& model, const Rect& image, const Rect& v
     if (model.frame() == nullptr) return;
     const Snapshot& snapshot = model.frame()->snapshot;
     if (texture_.resize(snapshot.width, snapshot.height)) key_ = {};
-    const Key key{model.frame()->serial, overlay(model), model.diagnostics().map(),
+    const Key key{model.frame()->serial, model.shows_denoised(), overlay(model), model.diagnostics().map(),
                   shows_heat(*model.frame()) ? model.display().heat_range(*model.frame()) : ValueRange{}};
     if (!(key == key_)) {
         fill(model, key);

@@ -28,6 +28,7 @@ private:
     /// Everything that the texture's pixels depend on.
     struct Key {
         std::uint64_t serial = 0;  ///< of the frame
+        bool is_denoised = false;
         CellOverlay overlay{};
         std::shared_ptr<const diagnose::DiagnosticsMap> diagnostics{};
         ValueRange heat{};  ///< of views in heat colors

@@ -10,6 +10,7 @@ bool FrameSchedule::is_due(std::uint32_t passes, bool is_moving, double rendered
 void FrameSchedule::settle(const Requests& now) {
     display_ = now.display;
     has_values_ = now.values;
+    is_denoised_ = now.denoised;
 }
 
 void FrameSchedule::end(std::uint32_t passes) {

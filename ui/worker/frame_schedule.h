@@ -18,7 +18,9 @@ public:
     void ask() { is_asked_ = true; }
     bool is_asked() const { return is_asked_; }
     /// Whether the window requests another display of the same film.
-    bool is_stale(const Requests& now) const { return now.display != display_ || (now.values && !has_values_); }
+    bool is_stale(const Requests& now) const {
+        return now.display != display_ || (now.values && !has_values_) || (now.denoised && !is_denoised_);
+    }
     /// Whether a frame of `passes` is due now. `rendered_seconds` is the age of the picture.
     bool is_due(std::uint32_t passes, bool is_moving, double rendered_seconds) const;
     bool shows(std::uint32_t passes) const { return passes == passes_; }
@@ -36,6 +38,7 @@ private:
     bool is_asked_ = false;
     DisplaySettings display_;
     bool has_values_ = false;
+    bool is_denoised_ = false;
     std::uint32_t passes_ = 0;
     std::optional<Stopwatch> age_;
 };

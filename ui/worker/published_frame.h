@@ -45,7 +45,9 @@ enum class Preview {
 const char* name_of(Preview preview);
 
 struct PublishedFrame {
-    DisplayFrame picture;  ///< the film in 8 bits, by `display`; may still be in transfer
+    DisplayFrame picture;   ///< the film in 8 bits, by `display`; may still be in transfer
+    DisplayFrame denoised;  ///< the same for the eye, see Denoiser; without width: none was made
+    double denoise_seconds = 0.0;
     DisplaySettings display;
     Snapshot snapshot;             ///< with pixels only if has_values()
     RenderSettings settings;       ///< with the width and height of the full picture

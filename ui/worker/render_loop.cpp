@@ -240,13 +240,17 @@ void RenderLoop::publish() {
     if (passes() == 0) return;
     frames_.settle(now_);
     frames_.begin();
-    auto frame = std::make_shared<PublishedFrame>(frame_of_film(*session_, slot(), now_.display, now_.values));
+    // In turns neither side is denoised: one alone would mislead.
+    const bool denoises = now_.denoised && !turns_ && passes() < DenoisedPreview::kEnoughPasses;
+    auto frame =
+        std::make_shared<PublishedFrame>(frame_of_film(*session_, slot(), now_.display, now_.values || denoises));
     frame->settings.width = size_.width();
     frame->settings.height = size_.height();
     frame->generation = now_.generation;
     frame->divider = size_.divider();
     frame->preview = preview_.now();
     frame->backend.name = backends_.current();
+    if (denoises) denoised_.add_to(*frame, *session_);
     frame->facts = facts_;
     frame->cells = now_.cells ? cells_.image(*session_) : nullptr;
     frame->volume = selected_.volume();

@@ -4,6 +4,7 @@
 
 #include "ui/worker/backend_switch.h"
 #include "ui/worker/cell_image.h"
+#include "ui/worker/denoised_preview.h"
 #include "ui/worker/field_history.h"
 #include "ui/worker/frame_schedule.h"
 #include "ui/worker/inbox.h"
@@ -87,6 +88,7 @@ private:
     PictureSize size_;
     std::optional<MethodTurns> turns_;
     MotionPreview preview_;
+    DenoisedPreview denoised_;
     Recorder runs_;
     CellRenderer cells_;
     // The parts of the learned field that the window shows.

@@ -61,14 +61,6 @@ void RenderWorker::set_display(const DisplaySettings& display) {
     });
 }
 
-void RenderWorker::set_values_wanted(bool wanted) {
-    inbox_.request([&](Requests& requests) {
-        const bool is_new = wanted && !requests.values;
-        requests.values = wanted;
-        return is_new ? Interrupts::ShownPass : Interrupts::Nothing;
-    });
-}
-
 void RenderWorker::request_pick(Vec2f image_point) {
     inbox_.request([&](Requests& requests) {
         requests.once.pick = image_point;

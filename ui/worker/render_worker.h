@@ -35,7 +35,9 @@ public:
     /// Exposure and curve of frames from now on; interrupts a pass at rest, which then resumes.
     void set_display(const DisplaySettings& display);
     /// Whether frames carry the values of the film, which take time to fetch from a device.
-    void set_values_wanted(bool wanted);
+    void set_values_wanted(bool wanted) { want(&Requests::values, wanted); }
+    /// Whether frames carry a denoised display of the first samples.
+    void set_denoised_wanted(bool wanted) { want(&Requests::denoised, wanted); }
     /// The reference for runs of the same picture from now on; null for none.
     void set_reference(std::shared_ptr<const LiveReference> reference) {
         set(&Requests::reference, std::move(reference));
@@ -88,6 +90,14 @@ private:
         inbox_.request([&](Requests& requests) {
             requests.*request = std::move(value);
             return interrupts;
+        });
+    }
+    /// A frame that has what is newly wanted is made at once.
+    void want(bool Requests::*part, bool wanted) {
+        inbox_.request([&](Requests& requests) {
+            const bool is_new = wanted && !(requests.*part);
+            requests.*part = wanted;
+            return is_new ? Interrupts::ShownPass : Interrupts::Nothing;
         });
     }
     void ask(bool OneShotRequests::*question) {

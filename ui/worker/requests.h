@@ -34,6 +34,7 @@ struct Requests {
     bool preview = true;         ///< then pictures may also be a preview, see MotionPreview
     bool cells = false;          ///< frames carry the image of the volumes' cells
     bool values = false;         ///< frames carry the values of the film
+    bool denoised = false;       ///< frames carry a denoised display of the first samples
     DisplaySettings display{};
     SampleLimits limits{};
     std::int32_t volume = kNoVolume;   ///< selected for inspection

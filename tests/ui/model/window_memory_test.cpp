@@ -29,6 +29,7 @@ WindowMemory changed_memory() {
     memory.tint_opacity = 0.75f;
     memory.coarser_in_motion = false;
     memory.preview_in_motion = false;
+    memory.denoised_preview = false;
     memory.plot = {ErrorMetric::Smape, CostAxis::Samples};
     memory.recent = {"cornell", "a \"b\"/sc\u00e4ne.obj"};
     memory.tour_step = 3;
