@@ -284,6 +284,7 @@ void Viewer::build_panels() {
     image_ = image_layer_.place(model_, layout_.view);
     plan_ = model_.comparison().plan(layout_.view, model_.window().zoom);
     point_at_pixel();
+    model_.window().is_dragging = ImGui::IsAnyItemActive();
     model_.window().values_shown = false;  // panels that show values set it again
     draw_interface(model_, layout_, image_, plan_, layout_.panels ? hovered_pixel() : std::nullopt,
                    magnifier_ ? &*magnifier_ : nullptr);

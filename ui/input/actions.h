@@ -26,6 +26,8 @@ enum class ActionId {
     CameraHome,
     Restart,
     Forget,
+    Undo,
+    Redo,
     Pause,
     SinglePass,
     SwitchBackend,

@@ -119,6 +119,8 @@ bool perform_render_action(ViewerModel& model, ActionId id) {
     case ActionId::NextBookmark: model.bookmarks().step(1); return true;
     case ActionId::PreviousBookmark: model.bookmarks().step(-1); return true;
     case ActionId::PlayPath: model.flight().toggle(); return true;
+    case ActionId::Undo: model.history().undo(model); return true;
+    case ActionId::Redo: model.history().redo(model); return true;
     case ActionId::Restart: render.restart(); return true;
     case ActionId::Forget: render.forget(); return true;
     case ActionId::Pause: render.set_paused(!render.paused()); return true;

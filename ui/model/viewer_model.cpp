@@ -77,6 +77,7 @@ void ViewerModel::update(double seconds) {
     self_test_.update();
     jobs_.update();
     tour_.update(*this, seconds);
+    history_.update(*this, seconds, window_.is_dragging);
     messages_.drop_expired();
 }
 

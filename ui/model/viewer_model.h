@@ -13,6 +13,7 @@
 #include "ui/model/field_flowers.h"
 #include "ui/model/gain_marks.h"
 #include "ui/model/guided_tour.h"
+#include "ui/model/history.h"
 #include "ui/model/open_dialog.h"
 #include "ui/model/outside_view.h"
 #include "ui/model/path_explorer.h"
@@ -84,6 +85,8 @@ public:
     const CameraBookmarks& bookmarks() const { return bookmarks_; }
     CameraFlight& flight() { return flight_; }
     const CameraFlight& flight() const { return flight_; }
+    History& history() { return history_; }
+    const History& history() const { return history_; }
     SequenceWriter& sequence() { return sequence_; }
     const SequenceWriter& sequence() const { return sequence_; }
 
@@ -130,6 +133,7 @@ private:
     CameraBookmarks bookmarks_;
     CameraFlight flight_;
     SequenceWriter sequence_;
+    History history_;
 };
 
 }  // namespace pl::ui

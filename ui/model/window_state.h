@@ -75,6 +75,7 @@ struct WindowState {
     LobeShape lobe_shape = LobeShape::Lobe;  ///< of that
     bool values_shown = false;               ///< something shows values of the picture
     PictureZoom zoom;                        ///< of the picture
+    bool is_dragging = false;                ///< a control is held
     bool magnifier = false;                  ///< beside the pointer
     std::optional<PointedPixel> pointed{};   ///< the pixel under the pointer; empty away from the picture
     float ui_scale = 1.0f;

@@ -30,6 +30,16 @@ void draw_views_menu(ViewerModel& model) {
     }
 }
 
+/// Of undo and redo what they would do; empty if there is nothing to do. Other actions are what they are.
+std::string menu_text(const ViewerModel& model, const Action& action) {
+    const auto named = [](const char* verb, const std::string& change) {
+        return change.empty() ? "" : verb + change;
+    };
+    if (action.id == ActionId::Undo) return named("undo ", model.history().undone_next());
+    if (action.id == ActionId::Redo) return named("redo ", model.history().redone_next());
+    return action.text;
+}
+
 /// One menu per group of the key table, without the held keys.
 void draw_group(ViewerModel& model, ActionGroup group) {
     const bool is_open = ImGui::BeginMenu(name_of(group));
@@ -37,10 +47,12 @@ void draw_group(ViewerModel& model, ActionGroup group) {
     if (!is_open) return;
     for (const Action& action : all_actions()) {
         if (action.group != group || action.is_held) continue;
-        std::string label = action.text;
+        const std::string text = menu_text(model, action);
+        std::string label = text.empty() ? action.text : text;
         label[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(label[0])));
         if (action.id == ActionId::Quit) ImGui::Separator();
-        if (ImGui::MenuItem(label.c_str(), action.keys.c_str(), is_on(model, action))) perform(model, action);
+        if (ImGui::MenuItem(label.c_str(), action.keys.c_str(), is_on(model, action), !text.empty()))
+            perform(model, action);
         note_place(action.text.c_str());
         if (action.id == ActionId::Open) draw_recent_menu(model);
     }

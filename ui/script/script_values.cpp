@@ -232,6 +232,9 @@ constexpr std::array kValues{
           [](const ViewerModel& m) {
               return shown(m, [](const PublishedFrame& f) { return device_text(f.backend); });
           }},
+    Value{"undo", [](const ViewerModel& m) { return m.history().undone_next(); }},
+    Value{"redo", [](const ViewerModel& m) { return m.history().redone_next(); }},
+    Value{"shown_denoised", [](const ViewerModel& m) { return word(m.shows_denoised()); }},
     Value{"shown_preview",
           [](const ViewerModel& m) {
               return shown(m, [](const PublishedFrame& f) { return std::string(name_of(f.preview)); });
