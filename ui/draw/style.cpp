@@ -1,5 +1,6 @@
 #include "ui/draw/style.h"
 
+#include <array>
 #include <cmath>
 
 namespace pl::ui {
@@ -10,66 +11,63 @@ ImVec4 rgb(int hex) {
             static_cast<float>(hex & 255) / 255.0f, 1.0f};
 }
 
-/// 0xRRGGBB in both themes.
-struct Shade {
-    int dark;
-    int light;
-};
+/// 0xRRGGBB in each theme.
+using Shade = std::array<int, kThemeCount>;
 
 void apply_colors(ImVec4* c, Theme theme) {
-    const auto hex = [&](Shade shade) { return theme == Theme::Dark ? shade.dark : shade.light; };
-    const auto opaque = [&](Shade shade) { return ImGui::ColorConvertFloat4ToU32(rgb(hex(shade))); };
-    colors::kText = opaque({0xe4e6ea, 0x15181d});
-    colors::kFaint = opaque({0x969ca6, 0x555c68});
-    colors::kAccent = opaque({0x5ca8ff, 0x0b57a8});
-    colors::kGood = opaque({0x6ccc80, 0x146c2e});
-    colors::kWarning = opaque({0xffb84c, 0x8a4b00});
-    colors::kError = opaque({0xff7068, 0xb3261e});
-    colors::kBadge = (opaque({0x14161b, 0xf4f5f7}) & 0x00ffffffu) | 0xd7000000u;
-    colors::kGround = opaque({0x101216, 0xffffff});
-    colors::kGrid = opaque({0x343a45, 0xbfc4cc});
-    colors::kMinorGrid = opaque({0x20242b, 0xe6e8ec});
-    const auto set = [&](int index, Shade shade) { c[index] = rgb(hex(shade)); };
+    const auto hex = [&](const Shade& shade) { return shade[static_cast<std::size_t>(theme)]; };
+    const auto opaque = [&](const Shade& shade) { return ImGui::ColorConvertFloat4ToU32(rgb(hex(shade))); };
+    colors::kText = opaque({0xe4e6ea, 0x15181d, 0xffffff});
+    colors::kFaint = opaque({0x969ca6, 0x555c68, 0xdcdcdc});
+    colors::kAccent = opaque({0x5ca8ff, 0x0b57a8, 0x8fd0ff});
+    colors::kGood = opaque({0x6ccc80, 0x146c2e, 0x7dff8a});
+    colors::kWarning = opaque({0xffb84c, 0x8a4b00, 0xffd84c});
+    colors::kError = opaque({0xff7068, 0xb3261e, 0xffaaa4});
+    colors::kBadge = (opaque({0x14161b, 0xf4f5f7, 0x000000}) & 0x00ffffffu) | 0xd7000000u;
+    colors::kGround = opaque({0x101216, 0xffffff, 0x000000});
+    colors::kGrid = opaque({0x343a45, 0xbfc4cc, 0x7a7a7a});
+    colors::kMinorGrid = opaque({0x20242b, 0xe6e8ec, 0x3c3c3c});
+    const auto set = [&](int index, const Shade& shade) { c[index] = rgb(hex(shade)); };
     c[ImGuiCol_Text] = to_vec4(colors::kText);
     c[ImGuiCol_TextDisabled] = to_vec4(colors::kFaint);
     c[ImGuiCol_CheckMark] = to_vec4(colors::kAccent);
     // Opaque: blending whole panels would take most of the time of a software renderer.
-    set(ImGuiCol_WindowBg, {0x1b1e24, 0xeff1f4});
-    set(ImGuiCol_ChildBg, {0x16181d, 0xf8f9fa});
-    set(ImGuiCol_PopupBg, {0x22262e, 0xffffff});
-    set(ImGuiCol_MenuBarBg, {0x14161a, 0xe0e3e8});
-    set(ImGuiCol_Border, {0x343a45, 0xb4bac4});
-    set(ImGuiCol_FrameBg, {0x2a2f39, 0xffffff});
-    set(ImGuiCol_FrameBgHovered, {0x353c49, 0xe3eaf4});
-    set(ImGuiCol_FrameBgActive, {0x3d4656, 0xd2def0});
-    set(ImGuiCol_TitleBg, {0x14161a, 0xd6dae0});
-    set(ImGuiCol_TitleBgActive, {0x14161a, 0xd6dae0});
-    set(ImGuiCol_Button, {0x323946, 0xd4d9e1});
-    set(ImGuiCol_ButtonHovered, {0x3f495a, 0xc0c9d6});
-    set(ImGuiCol_ButtonActive, {0x2f6bb0, 0x8fbdf0});
-    set(ImGuiCol_Header, {0x272c35, 0xdde1e8});
-    set(ImGuiCol_HeaderHovered, {0x323946, 0xccd5e2});
-    set(ImGuiCol_HeaderActive, {0x3a4352, 0xb9c7da});
-    set(ImGuiCol_SliderGrab, {0x5ca8ff, 0x3c86d6});
-    set(ImGuiCol_SliderGrabActive, {0x8cc2ff, 0x0b57a8});
-    set(ImGuiCol_Separator, {0x343a45, 0xb4bac4});
-    set(ImGuiCol_Tab, {0x20242b, 0xd4d9e1});
-    set(ImGuiCol_TabHovered, {0x3f495a, 0xc0c9d6});
+    set(ImGuiCol_WindowBg, {0x1b1e24, 0xeff1f4, 0x000000});
+    set(ImGuiCol_ChildBg, {0x16181d, 0xf8f9fa, 0x000000});
+    set(ImGuiCol_PopupBg, {0x22262e, 0xffffff, 0x000000});
+    set(ImGuiCol_MenuBarBg, {0x14161a, 0xe0e3e8, 0x000000});
+    set(ImGuiCol_Border, {0x343a45, 0xb4bac4, 0xb4b4b4});
+    set(ImGuiCol_FrameBg, {0x2a2f39, 0xffffff, 0x141414});
+    set(ImGuiCol_FrameBgHovered, {0x353c49, 0xe3eaf4, 0x242424});
+    set(ImGuiCol_FrameBgActive, {0x3d4656, 0xd2def0, 0x2a2a2a});
+    set(ImGuiCol_TitleBg, {0x14161a, 0xd6dae0, 0x000000});
+    set(ImGuiCol_TitleBgActive, {0x14161a, 0xd6dae0, 0x000000});
+    set(ImGuiCol_Button, {0x323946, 0xd4d9e1, 0x1e1e1e});
+    set(ImGuiCol_ButtonHovered, {0x3f495a, 0xc0c9d6, 0x2a2a2a});
+    set(ImGuiCol_ButtonActive, {0x2c66a8, 0x8fbdf0, 0x00284f});
+    set(ImGuiCol_Header, {0x272c35, 0xdde1e8, 0x1e1e1e});
+    set(ImGuiCol_HeaderHovered, {0x323946, 0xccd5e2, 0x2a2a2a});
+    set(ImGuiCol_HeaderActive, {0x3a4352, 0xb9c7da, 0x00284f});
+    set(ImGuiCol_SliderGrab, {0x5ca8ff, 0x3c86d6, 0x8fd0ff});
+    set(ImGuiCol_SliderGrabActive, {0x8cc2ff, 0x0b57a8, 0xffffff});
+    set(ImGuiCol_Separator, {0x343a45, 0xb4bac4, 0xb4b4b4});
+    set(ImGuiCol_Tab, {0x20242b, 0xd4d9e1, 0x1e1e1e});
+    set(ImGuiCol_TabHovered, {0x3f495a, 0xc0c9d6, 0x2a2a2a});
 #if IMGUI_VERSION_NUM >= 19090
-    set(ImGuiCol_TabSelected, {0x2f6bb0, 0x8fbdf0});
+    set(ImGuiCol_TabSelected, {0x2c66a8, 0x8fbdf0, 0x00284f});
     c[ImGuiCol_TabDimmedSelected] = c[ImGuiCol_TabSelected];
     c[ImGuiCol_TabDimmed] = c[ImGuiCol_Tab];
 #else
-    set(ImGuiCol_TabActive, {0x2f6bb0, 0x8fbdf0});
+    set(ImGuiCol_TabActive, {0x2c66a8, 0x8fbdf0, 0x00284f});
     c[ImGuiCol_TabUnfocusedActive] = c[ImGuiCol_TabActive];
     c[ImGuiCol_TabUnfocused] = c[ImGuiCol_Tab];
 #endif
-    set(ImGuiCol_ScrollbarBg, {0x16181d, 0xe0e3e8});
-    set(ImGuiCol_ScrollbarGrab, {0x3a4352, 0xb0b8c4});
-    set(ImGuiCol_TableHeaderBg, {0x272c35, 0xdde1e8});
-    set(ImGuiCol_TableBorderLight, {0x2c323c, 0xc8cdd5});
-    set(ImGuiCol_TableRowBgAlt, {0x1f232a, 0xe6e9ee});
-    set(ImGuiCol_PlotHistogram, {0x5ca8ff, 0x3c86d6});
+    set(ImGuiCol_ScrollbarBg, {0x16181d, 0xe0e3e8, 0x000000});
+    set(ImGuiCol_ScrollbarGrab, {0x3a4352, 0xb0b8c4, 0xb4b4b4});
+    set(ImGuiCol_TableHeaderBg, {0x272c35, 0xdde1e8, 0x1e1e1e});
+    set(ImGuiCol_TableBorderLight, {0x2c323c, 0xc8cdd5, 0x7a7a7a});
+    set(ImGuiCol_TableRowBgAlt, {0x1f232a, 0xe6e9ee, 0x141414});
+    set(ImGuiCol_PlotHistogram, {0x5ca8ff, 0x3c86d6, 0x8fd0ff});
 }
 
 }  // namespace
@@ -84,7 +82,7 @@ void apply_style(float ui_scale, Theme theme) {
     style.ScrollbarRounding = 3.0f;
     style.TabRounding = 3.0f;
     style.WindowBorderSize = 1.0f;
-    style.FrameBorderSize = theme == Theme::Light ? 1.0f : 0.0f;  // white boxes on a light ground
+    style.FrameBorderSize = theme == Theme::Dark ? 0.0f : 1.0f;  // boxes of the others are as bright as their ground
     style.WindowPadding = {10.0f, 10.0f};
     style.FramePadding = {7.0f, 3.0f};
     style.ItemSpacing = {8.0f, 4.0f};

@@ -3,6 +3,7 @@
 
 namespace pl::ui {
 
-enum class Theme { Dark, Light };
+enum class Theme { Dark, Light, HighContrast };
+inline constexpr int kThemeCount = 3;
 
 }  // namespace pl::ui

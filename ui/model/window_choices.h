@@ -32,6 +32,7 @@ template <>
 inline constexpr auto kChoices<ui::Theme> = std::to_array<ChoiceInfo<ui::Theme>>({
     {ui::Theme::Dark, "dark", "dark"},
     {ui::Theme::Light, "light", "light"},
+    {ui::Theme::HighContrast, "high contrast", "high contrast"},
 });
 
 template <>

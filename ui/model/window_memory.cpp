@@ -11,7 +11,7 @@
 namespace pl::ui {
 namespace {
 
-constexpr std::array<const char*, 2> kThemeNames{"dark", "light"};
+constexpr std::array<const char*, kThemeCount> kThemeNames{"dark", "light", "high contrast"};
 constexpr std::array<const char*, 2> kLayoutNames{"explore", "research"};
 constexpr std::array<const char*, kErrorMetricCount> kMetricNames{"relmse", "relmse-trimmed", "mse", "smape",
                                                                   "noise"};
