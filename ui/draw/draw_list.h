@@ -22,6 +22,8 @@ struct Rect {
 
     bool contains(Vec2f p) const { return p.x >= x && p.y >= y && p.x < x + width && p.y < y + height; }
     Vec2f center() const { return {x + 0.5f * width, y + 0.5f * height}; }
+
+    friend bool operator==(const Rect&, const Rect&) = default;
 };
 
 /// From the scene to the window: the exact inverse of generate_ray for a picture that fills `image`.

@@ -2,6 +2,8 @@
 
 #include <cmath>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <SDL.h>
 
@@ -71,6 +73,8 @@ void StreamTexture::draw_slices(const Rect& target, const Rect& clip) {
 PictureTextures::~PictureTextures() {
     for (const auto& [picture, texture] : textures_)
         if (texture != nullptr) SDL_DestroyTexture(texture);
+    for (const MeshTexture& kept : meshes_)
+        if (kept.texture != nullptr) SDL_DestroyTexture(kept.texture);
 }
 
 SDL_Texture* PictureTextures::of(const std::shared_ptr<const ByteImage>& picture) {
@@ -83,6 +87,35 @@ SDL_Texture* PictureTextures::of(const std::shared_ptr<const ByteImage>& picture
         SDL_SetTextureScaleMode(texture, SDL_ScaleModeLinear);
     }
     return entry->second = texture;
+}
+
+SDL_Texture* PictureTextures::of(const std::shared_ptr<const ScreenMesh>& mesh, const Rect& part) {
+    for (const MeshTexture& kept : meshes_)
+        if (kept.mesh == mesh && kept.part == part) return kept.texture;
+    if (meshes_[1].texture != nullptr) SDL_DestroyTexture(meshes_[1].texture);
+    meshes_[1] = std::exchange(meshes_[0], {mesh, part, draw(*mesh, part)});
+    return meshes_[0].texture;
+}
+
+SDL_Texture* PictureTextures::draw(const ScreenMesh& mesh, const Rect& part) {
+    SDL_Texture* const texture = SDL_CreateTexture(renderer_, SDL_PIXELFORMAT_ARGB8888, SDL_TEXTUREACCESS_TARGET,
+                                                   static_cast<int>(part.width), static_cast<int>(part.height));
+    if (texture == nullptr) return nullptr;
+    std::vector<SDL_Vertex> corners;
+    corners.reserve(mesh.indices.size());
+    for (const std::uint32_t i : mesh.indices) {
+        const auto channel = [&](int shift) { return static_cast<Uint8>(mesh.colors[i] >> shift & 255); };
+        corners.push_back({{mesh.points[i].x - part.x, mesh.points[i].y - part.y},
+                           {channel(IM_COL32_R_SHIFT), channel(IM_COL32_G_SHIFT), channel(IM_COL32_B_SHIFT), 255},
+                           {0.0f, 0.0f}});
+    }
+    SDL_SetTextureBlendMode(texture, SDL_BLENDMODE_BLEND);
+    SDL_SetRenderTarget(renderer_, texture);
+    SDL_SetRenderDrawColor(renderer_, 0, 0, 0, 0);
+    SDL_RenderClear(renderer_);
+    SDL_RenderGeometry(renderer_, nullptr, corners.data(), static_cast<int>(corners.size()), nullptr, 0);
+    SDL_SetRenderTarget(renderer_, nullptr);
+    return texture;
 }
 
 }  // namespace pl::ui

@@ -1,6 +1,7 @@
 // A texture that is refilled when its picture changes, and drawn into the window every frame.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -9,6 +10,7 @@
 #include "core/io/image.h"
 #include "ui/draw/draw_list.h"
 #include "ui/draw/imgui_draw.h"
+#include "ui/draw/lobes.h"
 
 struct SDL_Renderer;
 struct SDL_Texture;
@@ -44,7 +46,7 @@ private:
     int height_ = 0;
 };
 
-/// Small pictures as textures of the window's renderer, for controls of Dear ImGui; each is uploaded once.
+/// Small pictures and large meshes as textures of the window's renderer, for Dear ImGui; each is uploaded or drawn once.
 class PictureTextures {
 public:
     explicit PictureTextures(SDL_Renderer* renderer) : renderer_(renderer) {}
@@ -54,10 +56,21 @@ public:
 
     /// The picture must not change; it is kept. Null if the renderer has no room.
     SDL_Texture* of(const std::shared_ptr<const ByteImage>& picture);
+    /// The part of a mesh of opaque triangles in a rectangle of the window: without a graphics card its triangles take most of the time
+    /// of a frame. The last two are kept. Null if the renderer cannot draw into textures.
+    SDL_Texture* of(const std::shared_ptr<const ScreenMesh>& mesh, const Rect& part);
 
 private:
+    struct MeshTexture {
+        std::shared_ptr<const ScreenMesh> mesh{};
+        Rect part{};
+        SDL_Texture* texture = nullptr;
+    };
+    SDL_Texture* draw(const ScreenMesh& mesh, const Rect& part);
+
     SDL_Renderer* renderer_;
     std::map<std::shared_ptr<const ByteImage>, SDL_Texture*> textures_;
+    std::array<MeshTexture, 2> meshes_{};  ///< the newest first: compared pictures have a place each
 };
 
 }  // namespace pl::ui

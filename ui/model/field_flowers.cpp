@@ -155,11 +155,12 @@ Projection FieldFlowers::MeshKey::projection() const {
 FieldFlowers::Mesh FieldFlowers::make_mesh(MeshKey key) {
     Mesh mesh{.key = std::move(key)};
     if (mesh.key.flowers != nullptr && mesh.key.scene != nullptr)
-        mesh.triangles = flower_mesh(*mesh.key.flowers, mesh.key.scene->view(), mesh.key.projection(), mesh.counts);
+        mesh.triangles = std::make_shared<const ScreenMesh>(
+            flower_mesh(*mesh.key.flowers, mesh.key.scene->view(), mesh.key.projection(), mesh.counts));
     return mesh;
 }
 
-const ScreenMesh& FieldFlowers::mesh(const PublishedFrame& frame, const Rect& image) {
+std::shared_ptr<const ScreenMesh> FieldFlowers::mesh(const PublishedFrame& frame, const Rect& image) {
     const CameraDescription& camera = frame.snapshot.camera;
     const auto width = static_cast<float>(frame.snapshot.width);
     const auto height = static_cast<float>(frame.snapshot.height);

@@ -79,7 +79,7 @@ public:
     const FlowerField* flowers() const { return flowers_.get(); }
     /// The triangles for a picture in `image`; made again only when field, scene, camera or window have changed: those of another
     /// field in the background, with the field.
-    const ScreenMesh& mesh(const PublishedFrame& frame, const Rect& image);
+    std::shared_ptr<const ScreenMesh> mesh(const PublishedFrame& frame, const Rect& image);
     const FlowerCounts& counts() const { return meshes_[0].counts; }
     /// Number of times that the triangles were made.
     std::uint64_t times_made() const { return times_made_; }
@@ -97,7 +97,7 @@ private:
     };
     struct Mesh {
         MeshKey key{};
-        ScreenMesh triangles{};
+        std::shared_ptr<const ScreenMesh> triangles = std::make_shared<const ScreenMesh>();
         FlowerCounts counts{};
     };
     /// Null without flowers or scene.

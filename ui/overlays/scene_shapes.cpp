@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/kernel/geometry/intersector.h"
+#include "ui/draw/stream_texture.h"
 #include "ui/draw/style.h"
 #include "ui/draw/widgets.h"
 #include "ui/overlays/overlays.h"
@@ -168,7 +169,14 @@ void draw_hemisphere(ViewerModel& model, const Rect& image) {
 void draw_flowers(ViewerModel& model, const Rect& image) {
     if (!model.flowers().is_shown() || model.frame() == nullptr) return;
     ImDrawList& out = *ImGui::GetBackgroundDrawList();
-    draw_mesh(out, model.flowers().mesh(*model.frame(), image));
+    const std::shared_ptr<const ScreenMesh> mesh = model.flowers().mesh(*model.frame(), image);
+    const ImVec2 low{std::ceil(out.GetClipRectMin().x), std::ceil(out.GetClipRectMin().y)};
+    const ImVec2 high{std::floor(out.GetClipRectMax().x), std::floor(out.GetClipRectMax().y)};
+    if (mesh->indices.empty() || low.x >= high.x || low.y >= high.y) return;
+    if (SDL_Texture* const texture = gui_memory().textures->of(mesh, {low.x, low.y, high.x - low.x, high.y - low.y}))
+        out.AddImage(to_texture_id(texture), low, high);
+    else
+        draw_mesh(out, *mesh);
 }
 
 namespace {

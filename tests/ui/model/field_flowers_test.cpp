@@ -78,7 +78,7 @@ TEST_CASE("Flowers: hidden nothing is taken or made, and shown triangles are mad
     const std::uint64_t before = flowers.times_made();
     for (int i = 0; i < 10; ++i) (void)flowers.mesh(*model.frame(), image);
     CHECK(flowers.times_made() == before + 1);
-    CHECK(flowers.counts().triangles == flowers.mesh(*model.frame(), image).triangles());
+    CHECK(flowers.counts().triangles == flowers.mesh(*model.frame(), image)->triangles());
     PublishedFrame moved = *model.frame();
     moved.snapshot.camera.eye.x += 0.1f;
     (void)flowers.mesh(moved, image);
