@@ -24,6 +24,7 @@ void DenoisedPreview::add_to(PublishedFrame& frame, const Session& session) {
                 [&](std::size_t i) { (*pixels)[i] = frame_pixel(smoothed[i], style, codes.view()); });
     frame.denoised = {.width = key.width, .height = key.height, .pixels = [pixels] { return pixels->data(); }};
     frame.denoise_seconds = watch.seconds();
+    pixel_seconds_ = frame.denoise_seconds / static_cast<double>(hits_.count());
 }
 
 }  // namespace pl::ui

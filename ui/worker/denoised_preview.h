@@ -16,6 +16,8 @@ public:
     /// Gives a frame with values the denoised display of its picture; nothing to views other than the picture. On devices neither: they
     /// have the samples before the processor has traced the first surfaces.
     void add_to(PublishedFrame& frame, const Session& session);
+    /// Seconds that a frame of this many pixels takes, as the last one did.
+    double seconds_for(int width, int height) const { return pixel_seconds_ * width * height; }
 
 private:
     /// Of the first surfaces.
@@ -31,6 +33,7 @@ private:
     Denoiser denoiser_;
     FirstHits hits_;
     Key key_;
+    double pixel_seconds_ = 0.0;
 };
 
 }  // namespace pl::ui

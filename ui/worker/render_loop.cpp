@@ -193,7 +193,10 @@ void RenderLoop::render() {
     all_passes_ += passes() - before;
     if (progress == Progress::Rendered) {
         if (passes() == 1) frames_.ask();
-        size_.observe(watch.seconds() / std::max(1u, passes() - before));
+        // In motion each pass is shown, and denoised.
+        const RenderSettings& film = session_->settings();
+        const double shown = now_.denoised && !turns_ ? denoised_.seconds_for(film.width, film.height) : 0.0;
+        size_.observe(watch.seconds() / std::max(1u, passes() - before) + shown);
     }
     if (turns_) turns_->count(*session_, shown_.view);
     const bool is_last = now_.paused || now_.is_enough(passes(), work_seconds(session_->clocks(slot())));
