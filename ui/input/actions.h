@@ -79,6 +79,7 @@ enum class ActionId {
     About,
     KeyPanels,
     SaveView,
+    CopyView,
     Cancel,
     Quit,
 };

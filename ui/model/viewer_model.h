@@ -15,6 +15,7 @@
 #include "ui/model/guided_tour.h"
 #include "ui/model/open_dialog.h"
 #include "ui/model/outside_view.h"
+#include "ui/model/past_film.h"
 #include "ui/model/path_explorer.h"
 #include "ui/model/self_test.h"
 #include "ui/model/window_state.h"
@@ -84,6 +85,8 @@ public:
     const CameraBookmarks& bookmarks() const { return bookmarks_; }
     CameraFlight& flight() { return flight_; }
     const CameraFlight& flight() const { return flight_; }
+    PastFilm& past_film() { return past_film_; }
+    const PastFilm& past_film() const { return past_film_; }
     SequenceWriter& sequence() { return sequence_; }
     const SequenceWriter& sequence() const { return sequence_; }
 
@@ -123,6 +126,7 @@ private:
     OutsideView outside_;
     LearningTime time_;
     FieldFlowers flowers_;
+    PastFilm past_film_;
     GainMarks gain_marks_;
     AutoExposure exposure_;
     CameraBookmarks bookmarks_;
