@@ -373,6 +373,9 @@ void Viewer::show() {
     if (std::exchange(model_.window().requests.view_shot, false))
         model_.files().pictures().save_window(part_of(display_.read_pixels(), layout_.clear),
                                               model_.files().pictures().next_view_shot());
+    if (std::exchange(model_.window().requests.view_copy, false))
+        model_.files().pictures().copy_view(part_of(display_.read_pixels(), layout_.clear));
+    if (model_.past_film().wants_pixels()) model_.past_film().add(display_.read_pixels());
     if (script_) {
         if (const auto path = script_->take_shot())
             model_.files().pictures().save_window(display_.read_pixels(), *path);

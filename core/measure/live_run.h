@@ -10,6 +10,7 @@
 
 #include "core/measure/halves.h"
 #include "core/measure/metrics.h"
+#include "core/session/settings.h"
 #include "core/session/snapshot.h"
 
 namespace pl {
@@ -40,6 +41,8 @@ struct RunLabel {
     std::uint64_t seed = 0;     ///< runs that differ in the seed alone are repetitions
     std::uint64_t picture = 0;  ///< picture_key(): runs of different keys show different light and are never compared
     std::string details;        ///< other settings that differ from the defaults, in words
+
+    friend bool operator==(const RunLabel&, const RunLabel&) = default;
 };
 
 struct LivePoint {
@@ -59,11 +62,17 @@ struct LivePoint {
 
 /// All passes of one method into one film from empty on; a run continues when its method is selected again.
 struct LiveRun {
-    std::uint64_t number = 0;  ///< FilmOrigin::number of its film: unique within a session
+    std::uint64_t number = 0;  ///< FilmOrigin::number of its film
     RunLabel label;
+    RenderSettings settings;        ///< at its last point
     std::vector<LivePoint> points;  ///< at least one
+    std::uint32_t passes = 0;       ///< of its film, at its last point or when another film took its place
     bool in_progress = false;       ///< the session renders it
 };
+
+/// Whether a number that was measured after so many passes is old beside a picture of `passes`: behind by more than the spacing of
+/// points.
+constexpr bool is_old(std::uint32_t measured, std::uint32_t passes) { return passes > measured + measured / 4 + 1; }
 
 /// All runs at one moment; immutable, so that threads may share it.
 struct LiveRunSet {

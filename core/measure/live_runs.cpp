@@ -102,7 +102,11 @@ bool LiveRuns::work_on(std::uint64_t number) {
     bool changed = false;
     for (std::size_t i = 0; i < runs_.size(); ++i) {
         if (runs_[i]->in_progress == (runs_[i]->number == number)) continue;
-        change(i, [&](LiveRun& run) { run.in_progress = run.number == number; });
+        change(i, [&](LiveRun& run) {
+            run.in_progress = run.number == number;
+            if (const auto track = tracks_.find(run.number); track != tracks_.end())
+                run.passes = track->second.passes;
+        });
         changed = true;
     }
     return changed;
@@ -135,9 +139,11 @@ bool LiveRuns::add_point(const Session& session, FilmSlot slot, const FilmOrigin
     if (point) {
         if (!known)
             runs_.push_back(std::make_shared<const LiveRun>(
-                LiveRun{.number = origin.number, .label = label, .points = {}, .in_progress = true}));
+                LiveRun{.number = origin.number, .label = label, .settings = {}, .points = {}, .in_progress = true}));
         change(known.value_or(runs_.size() - 1), [&](LiveRun& run) {
             run.label.details = label.details;
+            run.settings = session.settings_for(slot);
+            run.passes = session.passes(slot);
             run.points.push_back(*std::move(point));
         });
         limit_runs();

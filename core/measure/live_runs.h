@@ -15,7 +15,7 @@
 
 namespace pl {
 
-/// Follows one session, in its thread. Only pictures of View::Beauty are measured.
+/// Follows one session, and those made beside it, in their thread. Only pictures of View::Beauty are measured.
 class LiveRuns {
 public:
     /// Words for settings of a session besides the settings in RunLabel; called at each point, because some may

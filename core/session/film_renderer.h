@@ -23,8 +23,8 @@ struct ShownFilm {
 /// Trains `fields` by its passes.
 class FilmRenderer {
 public:
-    FilmRenderer(const RenderInputs& inputs, SessionFields& fields)
-        : inputs_(inputs), fields_(fields), guiding_(inputs, fields) {}
+    FilmRenderer(const RenderInputs& inputs, SessionFields& fields, std::shared_ptr<FilmNumbers> numbers)
+        : inputs_(inputs), fields_(fields), guiding_(inputs, fields), films_(std::move(numbers)) {}
 
     /// See Session for these.
     Progress advance(FilmSlot slot, const StopFlag* stop, std::uint32_t most_passes);
@@ -32,6 +32,7 @@ public:
     ShownFilm show(FilmSlot slot, const DisplaySettings& display);
     std::optional<GuidingStatus> guiding_status(FilmSlot slot) const { return guiding_.status(slot, films_[slot]); }
 
+    const std::shared_ptr<FilmNumbers>& numbers() const { return films_.numbers(); }
     const FilmProgress& progress(FilmSlot slot) const { return films_[slot]; }
     /// Empty before the film is allocated.
     FilmReading read(FilmSlot slot) const;

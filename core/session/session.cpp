@@ -50,10 +50,17 @@ void require_fit(const SessionState& state, const HostScene& scene, std::size_t 
 
 Session::Session(std::shared_ptr<RenderBackend> backend, std::shared_ptr<const SceneDescription> scene,
                  const RenderSettings& settings, double load_seconds)
-    : inputs_(
-          std::make_unique<RenderInputs>(RenderInputs{std::move(backend), settings, SessionScene(std::move(scene))})),
-      fields_(std::make_unique<SessionFields>(*inputs_)), films_(std::make_unique<FilmRenderer>(*inputs_, *fields_)),
-      load_seconds_(load_seconds) {
+    : Session(std::move(backend), SessionScene(std::move(scene)), settings, std::make_shared<FilmNumbers>(),
+              load_seconds) {}
+
+Session::Session(const Session& other, std::shared_ptr<RenderBackend> backend, const RenderSettings& settings)
+    : Session(std::move(backend), other.inputs_->scene, settings, other.films_->numbers(), other.load_seconds_) {}
+
+Session::Session(std::shared_ptr<RenderBackend> backend, SessionScene scene, const RenderSettings& settings,
+                 std::shared_ptr<FilmNumbers> numbers, double load_seconds)
+    : inputs_(std::make_unique<RenderInputs>(RenderInputs{std::move(backend), settings, std::move(scene)})),
+      fields_(std::make_unique<SessionFields>(*inputs_)),
+      films_(std::make_unique<FilmRenderer>(*inputs_, *fields_, std::move(numbers))), load_seconds_(load_seconds) {
     upload_scene();
 }
 

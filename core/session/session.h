@@ -19,6 +19,9 @@ public:
     /// here.
     Session(std::shared_ptr<RenderBackend> backend, std::shared_ptr<const SceneDescription> scene,
             const RenderSettings& settings, double load_seconds = 0.0);
+    /// A session beside another one, to compare their films: it shares the packed scene and numbers films in the same sequence, so
+    /// that one observer can follow both. Edits that clear films are to be given to both before the next piece of work.
+    Session(const Session& other, std::shared_ptr<RenderBackend> backend, const RenderSettings& settings);
 
     /// Applies a change and clears the parts that take_over() names. Throws Error if a back end fails; if it is the new
     /// one of EditBackend, the session keeps the old one, unchanged, and a second try uploads everything to the new
@@ -108,6 +111,9 @@ public:
     FilmOrigin film_origin(FilmSlot slot) const { return films_->progress(slot).origin; }
 
 private:
+    Session(std::shared_ptr<RenderBackend> backend, SessionScene scene, const RenderSettings& settings,
+            std::shared_ptr<FilmNumbers> numbers, double load_seconds);
+
     std::vector<std::pair<std::string, std::string>> identity() const;
     void upload_scene();
     void change_material(const EditMaterial& edit);

@@ -13,12 +13,12 @@ void SessionFilms::begin(FilmSlot slot, const FilmOrigin& before) {
     FilmOrigin& origin = (*this)[slot].origin;
     if (origin.number != 0) return;
     origin = before;
-    origin.number = ++begun_;
-    origin.generation = generation_;
+    origin.number = ++numbers_->begun;
+    origin.generation = numbers_->generation;
 }
 
 void SessionFilms::clear() {
-    ++generation_;
+    ++numbers_->generation;
     std::ranges::for_each(films_, clear_film);
     for (ParkedBackend& parked : parked_) std::ranges::for_each(parked.films, clear_film);
 }
@@ -38,8 +38,8 @@ void SessionFilms::clear(View view) {
 }
 
 void SessionFilms::restore(FilmSlot slot, FilmProgress progress) {
-    begun_ = std::max(begun_, progress.origin.number);
-    generation_ = std::max(generation_, progress.origin.generation);
+    numbers_->begun = std::max(numbers_->begun, progress.origin.number);
+    numbers_->generation = std::max(numbers_->generation, progress.origin.generation);
     (*this)[slot] = std::move(progress);
 }
 

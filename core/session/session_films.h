@@ -43,9 +43,20 @@ struct ParkedBackend {
     std::shared_ptr<const HostScene> scene;
 };
 
+/// Counts what a session and those made beside it begin and empty.
+struct FilmNumbers {
+    std::uint64_t begun = 0;       ///< films
+    std::uint64_t generation = 0;  ///< number of SessionFilms::clear() so far
+};
+
 /// The films of the back end in use, and of parked back ends.
 class SessionFilms {
 public:
+    explicit SessionFilms(std::shared_ptr<FilmNumbers> numbers = std::make_shared<FilmNumbers>())
+        : numbers_(std::move(numbers)) {}
+
+    const std::shared_ptr<FilmNumbers>& numbers() const { return numbers_; }
+
     FilmProgress& operator[](FilmSlot slot) { return films_[static_cast<std::size_t>(slot.index())]; }
     const FilmProgress& operator[](FilmSlot slot) const { return films_[static_cast<std::size_t>(slot.index())]; }
 
@@ -72,8 +83,7 @@ public:
 private:
     std::array<FilmProgress, FilmSlot::kCount> films_{};
     std::vector<ParkedBackend> parked_;
-    std::uint64_t begun_ = 0;
-    std::uint64_t generation_ = 0;  ///< number of clear() so far
+    std::shared_ptr<FilmNumbers> numbers_;
 };
 
 }  // namespace pl

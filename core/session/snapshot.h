@@ -26,7 +26,7 @@ struct Clocks {
 
 /// The beginning of a film, by which runs of a method are distinguished.
 struct FilmOrigin {
-    std::uint64_t number = 0;      ///< of one session, counting up; 0 before the first piece of work
+    std::uint64_t number = 0;      ///< see FilmNumbers; 0 before the first piece of work
     std::uint64_t generation = 0;  ///< grows when all films are emptied
     bool warm = false;             ///< its method had a learned field before the first sample
     double place_seconds = 0.0;    ///< on the clocks before the film began

@@ -76,8 +76,15 @@ std::optional<CompareSide> reference_side(const CompareInput& input) {
                        .frame = {}};
 }
 
+std::optional<CompareSide> file_side(const CompareInput& input) {
+    if (input.file == nullptr) return std::nullopt;
+    return CompareSide{
+        .picture = input.file->pixels, .label = input.file->name, .backend = {}, .setup_seconds = {}, .frame = {}};
+}
+
 std::optional<CompareSide> chosen_side(const CompareInput& input, const SideChoice& choice) {
     if (choice.what == SideChoice::What::Reference) return reference_side(input);
+    if (choice.what == SideChoice::What::File) return file_side(input);
     const RunPtr run = find_run(input.runs, choice.run);
     if (!run || !can_be_a_side(*run, input)) return std::nullopt;
     return side_of(input, *run);
@@ -104,19 +111,17 @@ void show_newer(CompareSide& side, const FramePtr& frame) {
                  fmt::format("  {} spp  {:.3g} s", snapshot.passes, setup + clocks.learn + clocks.render);
 }
 
-CompareSide side_in_turns(const CompareInput& input, MethodId method, const FramePtr& frame) {
+CompareSide side_in_turns(const CompareInput& input, const RunLabel& label, const FramePtr& frame) {
     CompareSide side{.picture = {},
-                     .label = std::string(info_of(method).label) + "  no picture yet",
-                     .color = info_of(method).color,
+                     .label = name_of(label) + "  no picture yet",
+                     .color = run_color(input.runs, label),
                      .is_live = true,
-                     .method = method,
-                     .backend = frame ? frame->backend.name : "",
+                     .method = label.method,
+                     .backend = label.backend,
                      .setup_seconds = {},
                      .frame = {}};
-    const std::string backend = side.backend;
     for (const RunPtr& run : input.runs)
-        if (can_be_a_side(*run, input) && run->label.method == method && run->label.backend == backend)
-            side = side_of(input, *run);
+        if (can_be_a_side(*run, input) && are_of_one_kind(run->label, label)) side = side_of(input, *run);
     side.is_live = input.cursor.kind == Cursor::Kind::None;
     show_newer(side, frame);
     return side;
@@ -131,7 +136,8 @@ CompareSides resolve_sides(const CompareInput& input, const CompareState& state)
         sides.a = run ? std::optional(side_of(input, *run)) : reference_side(input);
     }
     if (!sides.b && sides.a && !sides.a->is_reference) {
-        const RunPtr run = second_run(input, *find_run(input.runs, sides.a->run));
+        const RunPtr own = find_run(input.runs, sides.a->run);
+        const RunPtr run = own ? second_run(input, *own) : first_run(input);
         sides.b = run ? std::optional(side_of(input, *run)) : reference_side(input);
     }
     return sides;

@@ -39,9 +39,9 @@ constexpr CompareMode stepped(CompareMode mode, int steps) {
     return static_cast<CompareMode>(index);
 }
 
-/// The choice of a side: automatic, a run by its number, or the reference.
+/// The choice of a side: automatic, a run by its number, the reference, or the picture of a file.
 struct SideChoice {
-    enum class What { Automatic, Run, Reference };
+    enum class What { Automatic, Run, Reference, File };
     What what = What::Automatic;
     std::uint64_t run = 0;
 
@@ -64,8 +64,14 @@ struct ReferencePicture {
     double noise_relmse = 0.0;  ///< of the mean of its halves
 };
 
+/// A picture that was opened from a file, to be compared with.
+struct OpenedPicture {
+    std::shared_ptr<const HalfPicture> pixels;
+    std::string name;
+};
+
 struct CompareSide {
-    std::uint64_t run = 0;  ///< 0: the reference
+    std::uint64_t run = 0;  ///< 0: the reference, or a file
     bool is_reference = false;
     std::shared_ptr<const HalfPicture> picture;  ///< null if none is kept at the cursor
     std::string label;                           ///< method, back end, samples, seconds; or the missing picture
@@ -95,13 +101,14 @@ struct CompareInput {
     CurveKind kind;
     Cursor cursor;
     const ReferencePicture* reference = nullptr;  ///< not used if it is of another picture
+    const OpenedPicture* file = nullptr;
 };
 
 /// Replaces the picture of a live side by a frame of the same method and back end at full resolution.
 void show_newer(CompareSide& side, const FramePtr& frame);
-/// The side of a method that renders in turns with another: the stored picture of its newest run, and its newest frame,
+/// The side of a run that renders in turns with another: the stored picture of the newest run like it, and its newest frame,
 /// which may be null.
-CompareSide side_in_turns(const CompareInput& input, MethodId method, const FramePtr& frame);
+CompareSide side_in_turns(const CompareInput& input, const RunLabel& label, const FramePtr& frame);
 
 /// Chosen sides, or automatic ones: A is the run in progress, else the newest; B is its baseline, else another run, else
 /// the reference. A side that does not exist is empty.

@@ -101,7 +101,7 @@ std::vector<Action> actions_after_methods() {
         {CompareNext, Group::Compare, "C", "compare two pictures: next mode", {sign(SDLK_c)}},
         {CompareBack, Group::Compare, "Shift+C", "compare two pictures: previous mode", {sign(SDLK_c, kShift)}},
         {Flip, Group::Compare, "G", "flip to the other picture", {sign(SDLK_g)}},
-        {Turns, Group::Compare, "X", "two methods in turns of equal time", {sign(SDLK_x)}},
+        {Turns, Group::Compare, "X", "two runs in turns of equal time", {sign(SDLK_x)}},
         {MakeReference, Group::Compare, "Ctrl+R", "render the reference, or continue it", {sign(SDLK_r, kCtrl)}},
 
         {HidePanels, Group::Window, "Tab", "hide or show the panels", {at(SDL_SCANCODE_TAB)}},
@@ -141,6 +141,11 @@ std::vector<Action> actions_after_methods() {
         {Save, Group::File, "Ctrl+S", "save the picture as EXR and PNG", {sign(SDLK_s, kCtrl)}},
         {SaveField, Group::File, "Ctrl+Shift+S", "save the learned field", {sign(SDLK_s, kCtrlShift)}},
         {LoadField, Group::File, "Ctrl+L", "continue from the newest saved field", {sign(SDLK_l, kCtrl)}},
+        {CopyView,
+         Group::File,
+         "Ctrl+Shift+C",
+         "copy the picture as it is seen, with all over it",
+         {sign(SDLK_c, kCtrlShift)}},
         {CopyCommand, Group::File, "Ctrl+C", "copy as command line", {sign(SDLK_c, kCtrl)}},
         {Quit, Group::File, "Ctrl+Q", "quit", {sign(SDLK_q, kCtrl)}},
 
@@ -170,7 +175,9 @@ constexpr std::array kMouseActions{
     MouseAction{"wheel on plot", "zoom; dragging pans, a double click fits"},
     MouseAction{"drag on axis", "pictures at equal time, at equal error; right click: off"},
     MouseAction{"drag on border", "size of the panel; a double click makes it automatic, the arrow folds it"},
-    MouseAction{"drop a file", "open an .obj, .gltf, .glb, .xml or .json scene, or a saved .field"},
+    MouseAction{
+        "drop a file",
+        "open an .obj, .gltf, .glb, .xml or .json scene, or a saved .field; compare with an .exr, .pfm or .hdr"},
 };
 
 }  // namespace

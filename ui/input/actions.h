@@ -82,6 +82,7 @@ enum class ActionId {
     About,
     KeyPanels,
     SaveView,
+    CopyView,
     Cancel,
     Quit,
 };

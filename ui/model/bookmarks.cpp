@@ -11,6 +11,7 @@
 #include "core/io/picture_file.h"
 #include "ui/draw/layout.h"
 #include "ui/model/file_names.h"
+#include "ui/model/programs.h"
 #include "ui/model/thumbnail.h"
 
 namespace pl::ui {
@@ -211,7 +212,7 @@ void SequenceWriter::begin() {
     if (wanted_.spp == 0 && !(wanted_.seconds > 0.0f))
         return messages_.say(MessageLevel::Info, "a frame needs a limit: samples or seconds above 0");
     const std::string stem = std::filesystem::path(pictures_.picture().scene.name).stem().string();
-    folder_ = names_.next(viewer_.screenshot_dir, file_name_part(stem) + "-sequence", {""});
+    folder_ = names_.next(viewer_.screenshot_dir, file_name_part(stem) + "-sequence", {"", ".mp4"});
     try {
         make_folder(folder_);
         save_cameras(path_file(), bookmarks_.cameras());
@@ -287,7 +288,12 @@ void SequenceWriter::finish() {
     const std::string same = command();
     path_.reset();
     render_.set_limits(limits_before_);
-    messages_.say(MessageLevel::Info, fmt::format("{} frames are in {}", written_, folder_.string()));
+    if (now_.kind == ImageKind::Png)
+        jobs_.push([this, folder = folder_]() -> Jobs::Report {
+            return [this, text = make_film(folder, kFramesPerSecond)] { messages_.say(MessageLevel::Info, text); };
+        });
+    else
+        messages_.say(MessageLevel::Info, fmt::format("{} frames are in {}", written_, folder_.string()));
     if (!same.empty()) messages_.note(MessageLevel::Info, "the same path without a window: " + same);
 }
 

@@ -97,9 +97,12 @@ private:
     float seconds_per_camera_ = 2.0f;
 };
 
-/// Writes the path frame by frame: each is rendered in the window, with learning that goes on from one to the next.
+/// Writes the path frame by frame, and a film of PNG frames: each is rendered in the window, with learning that goes on from one to
+/// the next.
 class SequenceWriter {
 public:
+    static constexpr int kFramesPerSecond = 24;  ///< of the film
+
     struct Options {
         int frames = 48;
         int spp = 64;          ///< of each frame; 0: no limit
@@ -113,8 +116,8 @@ public:
 
     SequenceWriter(const ModelServices& services, const CameraBookmarks& bookmarks, CameraMotion& camera,
                    RenderControls& render, PictureFiles& pictures)
-        : viewer_(services.options), messages_(services.messages), link_(services.link), bookmarks_(bookmarks),
-          camera_(camera), render_(render), pictures_(pictures) {}
+        : viewer_(services.options), messages_(services.messages), jobs_(services.jobs), link_(services.link),
+          bookmarks_(bookmarks), camera_(camera), render_(render), pictures_(pictures) {}
 
     Options& options() { return wanted_; }
     /// Says why if it cannot.
@@ -137,6 +140,7 @@ private:
 
     const ViewerOptions& viewer_;
     Messages& messages_;
+    Jobs& jobs_;
     RenderLink& link_;
     const CameraBookmarks& bookmarks_;
     CameraMotion& camera_;

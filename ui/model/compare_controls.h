@@ -1,4 +1,4 @@
-// The comparison of pictures and methods: the runs of this session, the two sides, methods in turns.
+// The comparison of pictures and runs: the runs of this session, the two sides, runs in turns.
 #pragma once
 
 #include "ui/compare/compare_plan.h"
@@ -28,17 +28,25 @@ public:
     void end();
     void flip();  ///< to the other side
     void choose_side(bool second, const SideChoice& choice);
+    /// Makes it side B.
+    void open_picture(OpenedPicture picture);
+    /// Null without one.
+    const OpenedPicture* opened() const { return opened_ ? &*opened_ : nullptr; }
     void set_split(float share);
     /// Sides are the pictures at the cursor: setting it starts a comparison.
     void set_cursor(const Cursor& cursor);
 
-    /// The present method and the method compared with it render in turns of equal time.
+    /// The present run and the one compared with it render in turns of equal time: the run that is chosen as B, with its settings, else
+    /// another method.
     bool in_turns() const { return link_.turns().has_value(); }
     void set_turns(bool on);
+    /// In turns the labels of both runs.
+    std::optional<std::array<RunLabel, 2>> labels_in_turns() const;
 
 private:
     CompareInput input() const;
     MethodId other_method() const;
+    TurnSides wanted_turns() const;
 
     RenderLink& link_;
     Messages& messages_;
@@ -46,6 +54,7 @@ private:
     const References& references_;
     AccuracyModel accuracy_;
     CompareState state_;
+    std::optional<OpenedPicture> opened_;
 };
 
 }  // namespace pl::ui

@@ -75,6 +75,8 @@ public:
     /// Once per frame of the window.
     void update();
 
+    /// Hidden, or made of the key frame that is shown.
+    bool is_current() const { return !is_shown_ || (!job_ && begun_ == wanted()); }
     /// Null before they are made.
     const FlowerField* flowers() const { return flowers_.get(); }
     /// The triangles for a picture in `image`; made again only when field, scene, camera or window have changed: those of another

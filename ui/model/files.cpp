@@ -1,9 +1,13 @@
 #include "ui/model/files.h"
 
+#include <algorithm>
+#include <array>
 #include <chrono>
 #include <optional>
 #include <thread>
 #include <utility>
+
+#include <unistd.h>
 
 #include <fmt/format.h>
 
@@ -11,6 +15,7 @@
 #include "core/io/files.h"
 #include "core/io/scene_materials.h"
 #include "ui/model/file_names.h"
+#include "ui/model/programs.h"
 
 namespace pl::ui {
 namespace {
@@ -112,6 +117,22 @@ void PictureFiles::save_window(ByteImage pixels, std::filesystem::path path) {
     });
 }
 
+void PictureFiles::copy_view(ByteImage pixels) {
+    jobs_.push([this, shared = std::make_shared<ByteImage>(std::move(pixels))]() -> Jobs::Report {
+        const std::filesystem::path path =
+            std::filesystem::temp_directory_path() / fmt::format("pathlight-copied-{}.png", getpid());
+        save_window_pixels(path, *shared);
+        try {
+            copy_picture(path);
+        } catch (...) {
+            std::filesystem::remove(path);
+            throw;
+        }
+        std::filesystem::remove(path);
+        return [this] { messages_.say(MessageLevel::Info, "copied the picture as it is seen"); };
+    });
+}
+
 SavedFields::SavedFields(const ModelServices& services, FileNames& names, const ViewedScene& scene,
                          RenderControls& render)
     : messages_(services.messages), jobs_(services.jobs), link_(services.link), names_(names), scene_(scene),
@@ -188,6 +209,31 @@ void SavedFields::load(const std::filesystem::path& path) {
 void SavedFields::adopt(const std::shared_ptr<LearnedField>& field, const std::filesystem::path& path) {
     render_.adopt_field(field);
     messages_.say(MessageLevel::Info, fmt::format("continuing from {}: {}", path.string(), summary_of(*field)));
+}
+
+void Files::open(const std::string& file) {
+    const std::filesystem::path path = file;
+    const std::string suffix = path.extension().string();
+    const auto is_picture = [&](ImageKind kind) { return suffix == "." + std::string(name_of(kind)); };
+    if (suffix == kFieldSuffix)
+        fields_.load(file);
+    else if (std::ranges::any_of(std::array{ImageKind::Exr, ImageKind::Pfm, ImageKind::Hdr}, is_picture))
+        open_picture(path);
+    else
+        scene_.open(file);
+}
+
+void Files::open_picture(const std::filesystem::path& path) {
+    jobs_.push([this, path]() -> Jobs::Report {
+        const LinearImage image = read_linear(path);
+        OpenedPicture picture{
+            .pixels = std::make_shared<const HalfPicture>(half_picture(image.width, image.height, image.pixels)),
+            .name = path.filename().string()};
+        return [this, picture] {
+            comparison_.open_picture(picture);
+            messages_.say(MessageLevel::Info, fmt::format("{} is compared as B", picture.name));
+        };
+    });
 }
 
 std::filesystem::path Files::save_materials() {

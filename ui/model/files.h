@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "ui/model/compare_controls.h"
 #include "ui/model/display_controls.h"
 #include "ui/model/file_names.h"
 #include "ui/model/render_controls.h"
@@ -35,6 +36,8 @@ public:
     /// Pixels of the window, which only the window can read.
     void save_window(ByteImage pixels, std::filesystem::path path);
     std::filesystem::path next_view_shot() { return names_.next(scene_, "view", {".png"}).string() + ".png"; }
+    /// The same to the clipboard.
+    void copy_view(ByteImage pixels);
     /// The curves of the accuracy panel, as SVG and as CSV.
     void save_plot(const std::string& svg, const std::string& csv);
     std::filesystem::path next_window_shot() { return names_.next(scene_, "window", {".png"}).string() + ".png"; }
@@ -97,29 +100,30 @@ private:
 
 class Files {
 public:
-    Files(const ModelServices& services, ViewedScene& scene, RenderControls& render, const DisplayControls& display)
-        : messages_(services.messages), jobs_(services.jobs), scene_(scene), names_(services.options.screenshot_dir),
-          pictures_(services, names_, scene, render, display), fields_(services, names_, scene, render) {}
+    Files(const ModelServices& services, ViewedScene& scene, RenderControls& render, const DisplayControls& display,
+          CompareControls& comparison)
+        : messages_(services.messages), jobs_(services.jobs), scene_(scene), comparison_(comparison),
+          names_(services.options.screenshot_dir), pictures_(services, names_, scene, render, display),
+          fields_(services, names_, scene, render) {}
 
     PictureFiles& pictures() { return pictures_; }
     const PictureFiles& pictures() const { return pictures_; }
     SavedFields& fields() { return fields_; }
 
-    /// A scene, or a learned field of the scene in the window: a file that ends in kFieldSuffix.
-    void open(const std::string& file) {
-        if (std::filesystem::path(file).extension() == kFieldSuffix)
-            fields_.load(file);
-        else
-            scene_.open(file);
-    }
+    /// A scene; a learned field of the scene in the window: a file that ends in kFieldSuffix; or a picture with linear values, which is
+    /// compared with the one in the window.
+    void open(const std::string& file);
 
     /// Begins to write the materials of the window, for --materials. Returns the name of the file.
     std::filesystem::path save_materials();
 
 private:
+    void open_picture(const std::filesystem::path& path);
+
     Messages& messages_;
     Jobs& jobs_;
     ViewedScene& scene_;
+    CompareControls& comparison_;
     FileNames names_;
     PictureFiles pictures_;
     SavedFields fields_;

@@ -45,6 +45,7 @@ void GainMarks::take_answer() {
         auto result = std::make_shared<Result>();
         result->gains = tile_gains(timed_halves(*base), timed_halves(*method), method->width);
         result->method = method->slot.method;
+        result->passes = {base->passes, method->passes};
         result->seconds = watch.seconds();
         return std::shared_ptr<const Result>(std::move(result));
     });
@@ -71,6 +72,13 @@ void GainMarks::update(double seconds) {
     next_seconds_ = seconds + kLeastMarkInterval;
     is_asked_ = true;
     link_.worker().request_gain();
+}
+
+bool GainMarks::is_old() const {
+    const PublishedFrame* frame = link_.frame().get();
+    if (!result_ || frame == nullptr) return false;
+    const bool is_base = frame->snapshot.slot.method == baseline_method();
+    return pl::is_old(result_->passes[is_base ? 0 : 1], frame->snapshot.passes);
 }
 
 const TileGains* GainMarks::gains() const {

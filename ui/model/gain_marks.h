@@ -2,6 +2,7 @@
 // are shown.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <string>
 
@@ -23,6 +24,8 @@ public:
 
     /// Of the picture that is shown; null without marks.
     const TileGains* gains() const;
+    /// Whether the picture has many samples more than those that the gains were measured from.
+    bool is_old() const;
     /// Compared with default.
     MethodId method() const { return result_->method; }
     /// For the lack of gains; empty until there is one.
@@ -32,7 +35,8 @@ private:
     struct Result {
         TileGains gains;
         MethodId method = MethodId::Reinforcement;
-        double seconds = 0.0;  ///< that the comparison took
+        std::array<std::uint32_t, 2> passes{};  ///< of default and of the method
+        double seconds = 0.0;                   ///< that the comparison took
     };
     using Comparison = BackgroundJob<std::shared_ptr<const Result>>;
 

@@ -175,7 +175,8 @@ void RenderControls::set_backend(const std::string& name) {
                       fmt::format("{} is unavailable: {}", back_end_label(name), choice->unavailable));
         return;
     }
-    if (!is_served(settings_.field, name)) return;
+    const bool has_second = link_.turns() && link_.turns()->second;
+    if (!is_served(settings_.field, name) || (has_second && !is_served(link_.turns()->second->field, name))) return;
     backend_generation_ = worker_.switch_backend(name);
 }
 

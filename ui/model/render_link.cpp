@@ -28,8 +28,7 @@ void RenderLink::take_frame() {
     auto latest = worker_.latest();
     if (latest == latest_) return;
     latest_ = std::move(latest);
-    const MethodId method = latest_->snapshot.slot.method;
-    if (turns_ && frame_ && method == (*turns_)[1]) {
+    if (turns_ && frame_ && latest_->side == 1) {
         second_frame_ = latest_;
     } else {
         frame_ = latest_;
@@ -42,8 +41,8 @@ void RenderLink::hold(Hold reason, bool on) {
     worker_.set_paused(holds_.any());
 }
 
-void RenderLink::begin_turns(TurnMethods methods) {
-    turns_ = methods;
+void RenderLink::begin_turns(const TurnSides& sides) {
+    turns_ = sides;
     worker_.set_turns(turns_);
 }
 

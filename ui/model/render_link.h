@@ -1,4 +1,4 @@
-// The window's interface to the render thread: its newest frames and status, reasons for it to rest, two methods in
+// The window's interface to the render thread: its newest frames and status, reasons for it to rest, two runs in
 // turns.
 #pragma once
 
@@ -48,9 +48,9 @@ public:
 
     RenderWorker& worker() { return worker_; }
     const RenderWorker& worker() const { return worker_; }
-    /// The newest frame of the method in the window; null before the first.
+    /// The newest frame of the run in the window; null before the first.
     const std::shared_ptr<const PublishedFrame>& frame() const { return frame_; }
-    /// In turns the newest frame of the second method; may be null.
+    /// In turns the newest frame of the second side; may be null.
     const std::shared_ptr<const PublishedFrame>& second_frame() const { return second_frame_; }
     const WorkerStatus& status() const { return status_; }
     const Throughput& throughput() const { return throughput_; }
@@ -59,9 +59,9 @@ public:
     void hold(Hold reason, bool on);
     bool is_held(Hold reason) const { return holds_.test(static_cast<std::size_t>(reason)); }
 
-    /// The two methods that render in turns; empty if none do.
-    const std::optional<TurnMethods>& turns() const { return turns_; }
-    void begin_turns(TurnMethods methods);
+    /// The two runs that render in turns; empty if none do.
+    const std::optional<TurnSides>& turns() const { return turns_; }
+    void begin_turns(const TurnSides& sides);
     /// Ends turns and continues with `method`: the last turn may have been the other method's. Nothing without turns.
     void end_turns(MethodId method);
 
@@ -72,7 +72,7 @@ private:
     std::shared_ptr<const PublishedFrame> second_frame_;
     std::shared_ptr<const PublishedFrame> latest_;  ///< the newer one of both
     Throughput throughput_;
-    std::optional<TurnMethods> turns_;
+    std::optional<TurnSides> turns_;
     std::bitset<5> holds_;
 };
 

@@ -31,10 +31,11 @@ ViewerModel::ViewerModel(const ViewerOptions& options, std::shared_ptr<const Sce
       references_({options, messages_, jobs_, link_}, render_, scene_),
       comparison_(link_, messages_, render_, references_), diagnostics_(link_, messages_, render_),
       self_test_({options, messages_, jobs_, link_}),
-      files_({options, messages_, jobs_, link_}, scene_, render_, display_),
+      files_({options, messages_, jobs_, link_}, scene_, render_, display_, comparison_),
       open_dialog_({options, messages_, jobs_, link_}, files_), paths_(link_, messages_), time_(link_),
-      flowers_(link_, time_), gain_marks_(link_), exposure_(link_, display_),
-      bookmarks_({options, messages_, jobs_, link_}, scene_, camera_), flight_(bookmarks_, camera_, messages_),
+      flowers_(link_, time_), past_film_({options, messages_, jobs_, link_}, scene_, time_, flowers_),
+      gain_marks_(link_), exposure_(link_, display_), bookmarks_({options, messages_, jobs_, link_}, scene_, camera_),
+      flight_(bookmarks_, camera_, messages_),
       sequence_({options, messages_, jobs_, link_}, bookmarks_, camera_, render_, files_.pictures()) {
     link_.worker().set_denoised_wanted(display_.denoises());
     if (options.field) link_.worker().submit(EditLearned{options.field});
@@ -73,6 +74,7 @@ void ViewerModel::update(double seconds) {
     paths_.update();
     time_.update(seconds);
     flowers_.update();
+    past_film_.update();
     gain_marks_.update(seconds);
     self_test_.update();
     jobs_.update();
@@ -88,7 +90,8 @@ Vec3f ViewerModel::orbit_center() const {
 
 bool ViewerModel::busy() const {
     return jobs_.pending() > 0 || files_.pictures().is_waiting() || references_.is_making() ||
-           diagnostics_.is_searching() || self_test_.run().is_running() || sequence_.progress().has_value();
+           diagnostics_.is_searching() || self_test_.run().is_running() || sequence_.progress().has_value() ||
+           past_film_.written();
 }
 
 bool ViewerModel::shows_denoised() const {
@@ -122,6 +125,8 @@ void ViewerModel::cancel() {
         self_test_.is_shown() = false;
     else if (sequence_.progress())
         sequence_.stop();
+    else if (past_film_.written())
+        past_film_.stop();
     else if (flight_.is_flying())
         flight_.stop();
     else if (status().state == WorkerState::Precomputing)

@@ -16,6 +16,7 @@
 #include "ui/model/history.h"
 #include "ui/model/open_dialog.h"
 #include "ui/model/outside_view.h"
+#include "ui/model/past_film.h"
 #include "ui/model/path_explorer.h"
 #include "ui/model/self_test.h"
 #include "ui/model/window_state.h"
@@ -87,6 +88,8 @@ public:
     const CameraFlight& flight() const { return flight_; }
     History& history() { return history_; }
     const History& history() const { return history_; }
+    PastFilm& past_film() { return past_film_; }
+    const PastFilm& past_film() const { return past_film_; }
     SequenceWriter& sequence() { return sequence_; }
     const SequenceWriter& sequence() const { return sequence_; }
 
@@ -128,6 +131,7 @@ private:
     OutsideView outside_;
     LearningTime time_;
     FieldFlowers flowers_;
+    PastFilm past_film_;
     GainMarks gain_marks_;
     AutoExposure exposure_;
     CameraBookmarks bookmarks_;

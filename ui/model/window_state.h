@@ -57,6 +57,7 @@ struct WindowRequests {
     bool full_screen = false;
     bool window_shot = false;
     bool view_shot = false;  ///< the picture with everything that is drawn over it
+    bool view_copy = false;  ///< the same to the clipboard
     bool quit = false;
     bool reset = false;     ///< everything as at a first start
     bool zoom = false;      ///< 1:1 around the pointer, or the whole picture

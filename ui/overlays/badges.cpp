@@ -146,13 +146,11 @@ void add_compare_badges(BadgeRow& row, const ViewerModel& model, const ComparePl
     if (!plan.hint.empty()) row.add(plan.hint, colors::kWarning);
 }
 
-void add_turns_badge(BadgeRow& row, const WorkerStatus& status) {
-    if (!status.turns) return;
-    const TurnsStatus& turns = *status.turns;
-    if (turns.catching_up)
-        row.add(
-            fmt::format("{} catches up", info_of(turns.methods[turns.seconds[0] < turns.seconds[1] ? 0 : 1]).label),
-            colors::kWarning);
+void add_turns_badge(BadgeRow& row, const ViewerModel& model) {
+    const auto halves = model.comparison().labels_in_turns();
+    const auto& turns = model.status().turns;
+    if (halves && turns && turns->catching_up)
+        row.add(name_of((*halves)[turns->seconds[0] < turns->seconds[1] ? 0 : 1]) + " catches up", colors::kWarning);
 }
 
 void add_reference_badge(BadgeRow& row, const ViewerModel& model) {
@@ -200,7 +198,7 @@ void add_gain_badges(BadgeRow& row, const GainMarks& marks) {
             std::ranges::count_if(gains->tiles, [&](const Interval& tile) { return verdict_of(tile) == verdict; });
         if (count > 0)
             row.add(fmt::format("{} of {} tiles: {}", count, gains->tiles.size(), mark_name(verdict)),
-                    color(verdict));
+                    marks.is_old() ? colors::kFaint : color(verdict));
     }
 }
 
@@ -218,6 +216,8 @@ void add_state_badges(BadgeRow& row, const ViewerModel& model) {
     if (const auto writing = model.sequence().progress())
         row.add(fmt::format("writing frame {} of {}, Esc stops", writing->written + 1, writing->frames),
                 colors::kWarning);
+    if (const auto written = model.past_film().written())
+        row.add(fmt::format("writing key frame {}, Esc stops", *written + 1), colors::kWarning);
     if (status.state == WorkerState::Done) row.add("done", colors::kGood);
     if (status.state == WorkerState::Failed) row.add("rendering failed, see the log", colors::kError);
     if (!info_of(model.render().settings().method).learns || !status.field || model.frame() == nullptr) return;
@@ -246,7 +246,7 @@ void draw_badges(ViewerModel& model, const Layout& layout, const ComparePlan& pl
                 colors::kWarning);
     add_compare_badges(row, model, plan);
     const WorkerStatus& status = model.status();
-    add_turns_badge(row, status);
+    add_turns_badge(row, model);
     add_reference_badge(row, model);
     if (plan.tiles.empty()) add_diagnostics_badges(row, model);
     add_gain_badges(row, model.gain_marks());

@@ -67,7 +67,8 @@ void draw_help(ViewerModel& model, const Layout& layout) {
     if (!model.window().help) return;
     ImGui::SetNextWindowFocus();
     begin_dialog("Keys", model.window().help, layout, em(56.0f));
-    if (ImGui::BeginTable("columns", 2, ImGuiTableFlags_SizingStretchSame)) {
+    const int columns = ImGui::GetContentRegionAvail().x >= em(4.0f * kKeysEm) ? 2 : 1;
+    if (ImGui::BeginTable("columns", columns, ImGuiTableFlags_SizingStretchSame)) {
         ImGui::TableNextColumn();
         draw_group(ActionGroup::Fly);
         draw_heading("Mouse");

@@ -232,8 +232,8 @@ void draw_path_lines(ViewerModel& model, const Rect& image) {
 namespace {
 
 /// A triangle up for a gain, one down for a loss, a disc for no difference, a ring where nothing is known.
-void draw_mark(ImDrawList& out, ImVec2 center, float radius, Verdict verdict) {
-    const ImU32 color = to_imgui_color(mark_color(verdict));
+void draw_mark(ImDrawList& out, ImVec2 center, float radius, Verdict verdict, bool is_old) {
+    const ImU32 color = is_old ? colors::kFaint : to_imgui_color(mark_color(verdict));
     out.AddCircleFilled(center, 1.35f * radius, IM_COL32(0, 0, 0, 170));
     const float sign = verdict == Verdict::Faster ? -1.0f : 1.0f;
     if (verdict == Verdict::Faster || verdict == Verdict::Slower)
@@ -260,7 +260,7 @@ void draw_gain_marks(const ViewerModel& model, const Rect& image) {
         draw_mark(out,
                   {image.x + (static_cast<float>(i % columns) + 0.5f) * width,
                    image.y + (static_cast<float>(i / columns) + 0.5f) * height},
-                  radius, verdict_of(gains->tiles[i]));
+                  radius, verdict_of(gains->tiles[i]), model.gain_marks().is_old());
     }
 }
 

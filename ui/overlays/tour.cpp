@@ -38,18 +38,19 @@ bool button(const char* label, const char* place) {
     return is_pressed;
 }
 
-void large_text(const std::string& text) {
+void large_text(const std::string& text, ImU32 color) {
     ImGui::PushFont(large_font());
-    text_line(text.c_str(), colors::kText);
+    text_line(text.c_str(), color);
     ImGui::PopFont();
 }
 
-/// Two methods in turns, in one sentence that is true now.
-void draw_headline(const ViewerModel& model) {
+/// Two runs in turns, in one sentence that is true now.
+void draw_headline(const ViewerModel& model, const std::array<RunLabel, 2>& halves) {
     const bool next_event = model.render().settings().next_event;
-    const TurnsHeadline headline =
-        turns_headline(model.comparison().accuracy().table(), *model.link().turns(), next_event);
-    large_text(headline.text);
+    const AccuracyModel& accuracy = model.comparison().accuracy();
+    const TurnsHeadline headline = turns_headline(accuracy.table(), halves);
+    const bool is_old = headline.row != nullptr && accuracy.is_old(*headline.row);
+    large_text(headline.text, is_old ? colors::kFaint : colors::kText);
     const std::string about = headline.detail.empty() ? "" : headline.detail + " ";
     faint_text(fmt::format("{}{}: {} turns them {}.", about,
                            next_event ? "With light samples" : "Without light samples",
@@ -144,7 +145,7 @@ void draw_tour(ViewerModel& model, const Layout& layout, const Rect& image, cons
         // Without buttons clicks go through it to the picture.
         begin_card("headline", view, low_card_edge(view, plan), true,
                    phase == Phase::Off ? ImGuiWindowFlags_NoInputs : 0);
-        if (model.link().turns()) draw_headline(model);
+        if (const auto halves = model.comparison().labels_in_turns()) draw_headline(model, *halves);
         if (phase == Phase::Offered) draw_offer(model);
         memory.low_card_start = end_card("headline").y;
         return;

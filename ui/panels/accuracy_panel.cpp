@@ -71,7 +71,7 @@ void draw_row(const CursorRow& row, const AccuracyModel& model) {
     const CostAxis other = kind.axis == CostAxis::Seconds ? CostAxis::Samples : CostAxis::Seconds;
     text_cell(row.other_cost && shown ? cost_text(*row.other_cost, other) : "-");
     if (row.is_base)
-        text_cell("default", colors::kFaint);
+        text_cell("baseline", colors::kFaint);
     else if (!row.ratio)
         text_cell("-", colors::kFaint);
     else
@@ -101,24 +101,32 @@ void draw_cursor_table(const AccuracyModel& model) {
     ImGui::EndTable();
 }
 
-std::string choice_text(const SideChoice& choice, const AccuracyModel& model) {
+std::string choice_text(const SideChoice& choice, const CompareControls& comparison) {
     if (choice.what == SideChoice::What::Reference) return "reference";
-    const auto run = choice.what == SideChoice::What::Run ? find_run(model.runs(), choice.run) : nullptr;
+    if (choice.what == SideChoice::What::File && comparison.opened() != nullptr) return comparison.opened()->name;
+    const auto run =
+        choice.what == SideChoice::What::Run ? find_run(comparison.accuracy().runs(), choice.run) : nullptr;
     return run ? name_of(run->label) : "automatic";
 }
 
 void draw_side_choice(ViewerModel& model, bool second) {
-    const SideChoice& now = second ? model.comparison().state().b : model.comparison().state().a;
-    begin_row(second ? "B" : "A", "Automatic: A is the run in progress, B its baseline.");
-    if (!ImGui::BeginCombo(second ? "##b" : "##a", choice_text(now, model.comparison().accuracy()).c_str())) return;
+    const CompareControls& comparison = model.comparison();
+    const SideChoice& now = second ? comparison.state().b : comparison.state().a;
+    const std::string label = second ? "B" : "A";
+    if (!begin_choice_row(label.c_str(), "Automatic: A is the run in progress, B its baseline.",
+                          choice_text(now, comparison).c_str()))
+        return;
     const auto offer = [&](const std::string& name, const SideChoice& choice) {
-        if (ImGui::Selectable(name.c_str(), choice == now)) model.comparison().choose_side(second, choice);
+        if (ImGui::Selectable(fmt::format("{}##{}", name, choice.run).c_str(), choice == now))
+            model.comparison().choose_side(second, choice);
+        note_place(fmt::format("{}: {}", label, name).c_str());
     };
     offer("automatic", {});
-    for (const auto& run : model.comparison().accuracy().runs())
-        if (run->label.picture == model.comparison().accuracy().picture())
-            offer(fmt::format("{}##{}", name_of(run->label), run->number), {SideChoice::What::Run, run->number});
+    for (const auto& run : comparison.accuracy().runs())
+        if (run->label.picture == comparison.accuracy().picture())
+            offer(name_of(run->label), {SideChoice::What::Run, run->number});
     if (model.references().current() != nullptr) offer("reference", {SideChoice::What::Reference, 0});
+    if (const OpenedPicture* opened = comparison.opened()) offer(opened->name, {SideChoice::What::File, 0});
     ImGui::EndCombo();
 }
 
@@ -130,11 +138,11 @@ void draw_comparison(ViewerModel& model) {
     draw_side_choice(model, false);
     draw_side_choice(model, true);
     bool turns = model.comparison().in_turns();
-    if (toggle_row("In turns of equal time",
-                   "Key X: the present method and the compared one render in turns A, B, B, A of equal charged time, "
-                   "each at "
-                   "half the speed.",
-                   &turns))
+    if (toggle_row(
+            "In turns of equal time",
+            "Key X: the present run and the one chosen as B, with all its settings, render in turns A, B, B, A of "
+            "equal charged time, each at half the speed. Without a choice another method is B.",
+            &turns))
         model.comparison().set_turns(turns);
 }
 

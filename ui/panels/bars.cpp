@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <array>
 #include <cctype>
+#include <span>
 
 #include <fmt/format.h>
 
@@ -11,6 +13,8 @@
 
 namespace pl::ui {
 namespace {
+
+constexpr const char* kMore = "More";  ///< the menu of menus for which a bar has no room
 
 void draw_recent_menu(ViewerModel& model) {
     if (!ImGui::BeginMenu("Open recent")) return;
@@ -60,6 +64,19 @@ void draw_group(ViewerModel& model, ActionGroup group) {
     ImGui::EndMenu();
 }
 
+/// How many of the menus fit into the bar, with room for one that holds the rest.
+std::size_t fitting_menus(std::span<const ActionGroup> groups) {
+    const auto width = [](const char* name) { return ImGui::CalcTextSize(name).x + ImGui::GetStyle().ItemSpacing.x; };
+    const float room = ImGui::GetContentRegionAvail().x;
+    float sum = 0.0f;
+    std::size_t fit = 0;
+    for (std::size_t i = 0; i < groups.size(); ++i) {
+        sum += width(name_of(groups[i]));
+        if (sum + width(kMore) <= room) fit = i + 1;
+    }
+    return sum <= room ? groups.size() : fit;
+}
+
 }  // namespace
 
 void draw_menu_bar(ViewerModel& model, const Layout& layout) {
@@ -68,8 +85,16 @@ void draw_menu_bar(ViewerModel& model, const Layout& layout) {
     ImGui::PopStyleVar();
     if (ImGui::BeginMenuBar()) {
         using enum ActionGroup;
-        for (const ActionGroup group : {File, View, Render, Method, Overlay, Compare, Fly, Window, Help})
-            draw_group(model, group);
+        constexpr std::array kGroups{File, View, Render, Method, Overlay, Compare, Fly, Window, Help};
+        const std::span groups(kGroups);
+        const std::size_t fit = fitting_menus(groups);
+        for (const ActionGroup group : groups.first(fit)) draw_group(model, group);
+        const bool is_open = fit < groups.size() && ImGui::BeginMenu(kMore);
+        if (fit < groups.size()) note_place("menu More");
+        if (is_open) {
+            for (const ActionGroup group : groups.subspan(fit)) draw_group(model, group);
+            ImGui::EndMenu();
+        }
         ImGui::EndMenuBar();
     }
     ImGui::End();

@@ -87,12 +87,24 @@ void draw_plot(const std::vector<NamedCurve>& curves, double level, std::uint64_
     list.AddText({rect.x + rect.width - ImGui::CalcTextSize(right.c_str()).x, below}, colors::kFaint, right.c_str());
 }
 
-void draw_scrubber(LearningTime& time) {
+void draw_scrubber(ViewerModel& model) {
+    LearningTime& time = model.time();
     const auto last = static_cast<int>(time.history()->frames.size());
     if (last == 0) return;
     if (ImGui::Button(time.is_playing() ? "stop" : "play", {em(3.2f), 0.0f})) time.set_playing(!time.is_playing());
     note_place("play");
     tooltip("Through all key frames and back. Discs and lobes follow.");
+    ImGui::SameLine(0.0f, em(0.4f));
+    const bool is_writing = model.past_film().written().has_value();
+    if (ImGui::Button(is_writing ? "stop##film" : "film", {em(3.2f), 0.0f})) {
+        if (is_writing)
+            model.past_film().stop();
+        else
+            model.past_film().begin();
+    }
+    note_place("film");
+    tooltip(
+        "Writes the window at each key frame as a PNG, and with ffmpeg as a film. Tab hides the panels. Esc stops.");
     ImGui::SameLine(0.0f, em(0.4f));
     int at = time.shown() ? static_cast<int>(*time.shown()) : last;
     const FieldHistory& history = *time.history();
@@ -156,7 +168,7 @@ void draw_figure_curves(const ViewerModel& model) {
 
 void draw_time(ViewerModel& model, const VolumeInspection& shown) {
     LearningTime& time = model.time();
-    draw_scrubber(time);
+    draw_scrubber(model);
     const VolumeInspection* now = model.selection().inspection();
     if (time.frame() == nullptr || now == nullptr) return;
     const ShareDifference apart = difference(now->probability, shown.probability);

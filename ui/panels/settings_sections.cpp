@@ -180,9 +180,10 @@ void draw_sequence(ViewerModel& model) {
         options.seconds = static_cast<float>(std::max(seconds, 0.0));
     choice_row("Files", "Kind of the pictures.", &options.kind);
     const bool is_writing = sequence.progress().has_value();
-    if (wide_button(
-            is_writing ? "Stop writing" : "Write the path as pictures",
-            "Frame by frame, in the window; learning goes on between them. Esc stops, and the frames so far stay.")) {
+    if (wide_button(is_writing ? "Stop writing" : "Write the path as pictures",
+                    "Frame by frame, in the window; learning goes on between them. PNG frames also become a film, "
+                    "where ffmpeg "
+                    "is installed. Esc stops, and the frames so far stay.")) {
         if (is_writing)
             sequence.stop();
         else

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
 namespace pl::ui {
 namespace {
 
@@ -16,12 +18,32 @@ bool is_measured(RunList runs, std::uint64_t picture, ErrorMetric metric) {
 
 }  // namespace
 
-void AccuracyModel::update(std::shared_ptr<const LiveRunSet> runs, std::uint64_t picture, double floor) {
-    if (runs == runs_ && picture == picture_ && floor == floor_) return;
+void AccuracyModel::update(std::shared_ptr<const LiveRunSet> runs, std::uint64_t picture, double floor,
+                           const RunBase& base) {
+    if (runs == runs_ && picture == picture_ && floor == floor_ && base == base_) return;
     runs_ = std::move(runs);
     picture_ = picture;
     floor_ = floor;
+    base_ = base;
     recompute();
+}
+
+std::uint32_t AccuracyModel::passes_of(const LiveRun& run) const {
+    return run.in_progress ? std::max(run.passes, passes_) : run.passes;
+}
+
+bool AccuracyModel::is_old(std::uint64_t number) const {
+    const auto run = find_run(runs(), number);
+    return run && !run->points.empty() && pl::is_old(run->points.back().spp, passes_of(*run));
+}
+
+bool AccuracyModel::is_old(const RunRow& row) const { return is_old(row.run) || is_old(row.base); }
+
+std::string AccuracyModel::age_text(const RunRow& row) const {
+    const auto run = find_run(runs(), is_old(row.run) ? row.run : row.base);
+    return run ? fmt::format("{}: measured after {} of {} samples per pixel.", name_of(run->label),
+                             run->points.back().spp, passes_of(*run))
+               : "";
 }
 
 void AccuracyModel::set_metric(ErrorMetric metric) {
@@ -42,7 +64,7 @@ void AccuracyModel::set_axis(CostAxis axis) {
 
 void AccuracyModel::set_cursor(const Cursor& cursor) {
     cursor_ = cursor.at > 0.0 && std::isfinite(cursor.at) ? cursor : Cursor{};
-    rows_ = cursor_rows(runs(), picture_, kind_, cursor_);
+    rows_ = cursor_rows(runs(), picture_, kind_, cursor_, base_);
 }
 
 void AccuracyModel::toggle_hidden(std::uint64_t run) {
@@ -78,8 +100,8 @@ void AccuracyModel::recompute() {
     if (!is_measured(runs(), picture_, kind_.metric)) kind_.metric = ErrorMetric::Noise;
     if (kind_.metric != before && cursor_.kind == Cursor::Kind::EqualError) cursor_ = {};
     make_lines();
-    table_ = make_run_table(runs(), picture_);
-    rows_ = cursor_rows(runs(), picture_, kind_, cursor_);
+    table_ = make_run_table(runs(), picture_, base_);
+    rows_ = cursor_rows(runs(), picture_, kind_, cursor_, base_);
     if (view_kept_)
         keep_view();  // of another picture the curves may lie elsewhere
     else

@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <set>
+#include <string>
 #include <vector>
 
 #include "ui/plot/plot_lines.h"
@@ -18,7 +19,15 @@ public:
 
     /// Takes the newest runs. `picture` is that of the window (RunLabel::picture), `floor` the noise of its reference as
     /// relMSE, 0 without one.
-    void update(std::shared_ptr<const LiveRunSet> runs, std::uint64_t picture, double floor);
+    void update(std::shared_ptr<const LiveRunSet> runs, std::uint64_t picture, double floor,
+                const RunBase& base = {});
+
+    /// Passes of the picture of the run in progress, which its points may not have yet. Once per frame of the window.
+    void set_passes(std::uint32_t passes) { passes_ = passes; }
+    /// Whether the numbers of a row are older than the pictures of its run and of the one that it is compared with.
+    bool is_old(const RunRow& row) const;
+    /// "Default CPU: measured after 11 of 44 samples per pixel.": of such a row.
+    std::string age_text(const RunRow& row) const;
 
     /// Null before the first update.
     const LiveRunSet* set() const { return runs_.get(); }
@@ -50,6 +59,8 @@ public:
     void fit_view();
 
 private:
+    std::uint32_t passes_of(const LiveRun& run) const;
+    bool is_old(std::uint64_t number) const;
     void recompute();
     void make_lines();
     void keep_view();
@@ -57,6 +68,8 @@ private:
     std::shared_ptr<const LiveRunSet> runs_;
     std::uint64_t picture_ = 0;
     double floor_ = 0.0;
+    RunBase base_;
+    std::uint32_t passes_ = 0;
     CurveKind wanted_;
     CurveKind kind_;
     Cursor cursor_;

@@ -53,9 +53,10 @@ std::vector<RunColumn> columns_for(const std::vector<RunRow>& rows) {
 }
 
 constexpr const char* kGainTip =
-    "Time of default over the time of the run, to the same error: above 1 the run is faster. In brackets 95 %: over "
-    "runs of several seeds, else over the blocks of this picture; runs of other seeds differ by more. Undecided: the "
-    "interval contains 1.";
+    "Time of the baseline over the time of the run, to the same error: above 1 the run is faster. The baseline is "
+    "default, and in turns of other runs the second of them. In brackets 95 %: over runs of several seeds, else over "
+    "the blocks of this picture; runs of other seeds differ by more. Undecided: the interval contains 1. Gray: the "
+    "picture has many samples more than were measured.";
 
 void header_cell(const char* title, const char* tip) {
     ImGui::TableNextColumn();
@@ -81,24 +82,24 @@ ImU32 gain_color(const RunRow& row) {
 }
 
 /// The statement, and its interval where there is room.
-void draw_gain(const RunRow& row) {
+void draw_gain(const RunRow& row, bool is_old) {
     ImGui::TableNextColumn();
     std::string text = gain_text(row);
     if (const std::string interval = interval_text(row); !interval.empty()) {
         const std::string both = fmt::format("{} ({})", text, interval);
         if (ImGui::CalcTextSize(both.c_str()).x <= ImGui::GetContentRegionAvail().x) text = both;
     }
-    ImGui::PushStyleColor(ImGuiCol_Text, gain_color(row));
+    ImGui::PushStyleColor(ImGuiCol_Text, is_old ? colors::kFaint : gain_color(row));
     ImGui::TextUnformatted(text.c_str());
     ImGui::PopStyleColor();
 }
 
 /// Sample of the line and name of the method. True if the row was clicked.
-bool draw_method(const RunRow& row, const PlotLine* line) {
+bool draw_method(const RunRow& row, const PlotLine* line, const std::string& remark) {
     ImGui::TableNextColumn();
     const ImVec2 at = ImGui::GetCursorScreenPos();
     const bool clicked = ImGui::Selectable("##row", false, ImGuiSelectableFlags_SpanAllColumns);
-    tooltip(row.remark.c_str());
+    tooltip(remark.c_str());
     note_place(name_of(row.label).c_str());
     if (line != nullptr)
         draw_sample(*ImGui::GetWindowDrawList(), *line, {at.x, at.y + 0.5f * ImGui::GetTextLineHeight()},
@@ -136,9 +137,12 @@ void draw_run_table(AccuracyModel& model) {
         for (const RunRow& row : table.rows) {
             ImGui::TableNextRow();
             ImGui::PushID(static_cast<int>(row.run));
-            if (draw_method(row, line_of(model, row.run))) clicked = row.run;
-            for (const RunColumn& column : columns) text_cell(column.text(row));
-            draw_gain(row);
+            const bool is_old = model.is_old(row);
+            const std::string remark = is_old ? row.remark + "\n" + model.age_text(row) : row.remark;
+            if (draw_method(row, line_of(model, row.run), remark)) clicked = row.run;
+            for (const RunColumn& column : columns)
+                text_cell(column.text(row), is_old ? colors::kFaint : colors::kText);
+            draw_gain(row, is_old);
             ImGui::PopID();
         }
         ImGui::EndTable();

@@ -99,7 +99,23 @@ std::shared_ptr<const LiveRun> find_run(RunList runs, std::uint64_t number) {
     return found != runs.end() ? *found : nullptr;
 }
 
-std::shared_ptr<const LiveRun> base_of(RunList runs, const LiveRun& run) {
+bool are_of_one_kind(const RunLabel& a, const RunLabel& b) {
+    return a.method == b.method && a.backend == b.backend && a.next_event == b.next_event && a.picture == b.picture &&
+           a.details == b.details;
+}
+
+namespace {
+
+/// Null before it was measured.
+std::shared_ptr<const LiveRun> newest_of_kind(RunList runs, const RunLabel& label) {
+    std::shared_ptr<const LiveRun> newest;
+    for (const auto& run : runs)
+        if (are_of_one_kind(run->label, label) && !run->points.empty()) newest = run;
+    return newest;
+}
+
+/// The most alike of the baseline method, the newest of these.
+std::shared_ptr<const LiveRun> baseline_of(RunList runs, const LiveRun& run) {
     std::shared_ptr<const LiveRun> best;
     int best_likeness = -1;
     for (const auto& other : runs) {
@@ -112,6 +128,28 @@ std::shared_ptr<const LiveRun> base_of(RunList runs, const LiveRun& run) {
         best = other;
         best_likeness = likeness;
     }
+    return best;
+}
+
+}  // namespace
+
+std::size_t base_side(const std::array<RunLabel, 2>& sides) {
+    return sides[0].method == baseline_method() && sides[1].method != baseline_method() ? 0 : 1;
+}
+
+RunBase base_of_turns(RunList runs, const std::array<RunLabel, 2>& sides) {
+    const RunLabel& base = sides[base_side(sides)];
+    const bool is_usual = base.method == baseline_method() && sides[0].next_event == sides[1].next_event &&
+                          sides[0].method != sides[1].method;
+    return !is_usual && newest_of_kind(runs, base) ? RunBase(base) : std::nullopt;
+}
+
+bool is_base(const RunLabel& label, const RunBase& base) {
+    return base ? are_of_one_kind(label, *base) : label.method == baseline_method();
+}
+
+std::shared_ptr<const LiveRun> base_of(RunList runs, const LiveRun& run, const RunBase& base) {
+    const auto best = base ? newest_of_kind(runs, *base) : baseline_of(runs, run);
     return best && best->number != run.number ? best : nullptr;
 }
 
@@ -183,16 +221,17 @@ std::optional<std::size_t> nearest_kept(const LiveRun& run, const CurveKind& kin
 
 }  // namespace
 
-std::vector<CursorRow> cursor_rows(RunList runs, std::uint64_t picture, const CurveKind& kind, const Cursor& cursor) {
+std::vector<CursorRow> cursor_rows(RunList runs, std::uint64_t picture, const CurveKind& kind, const Cursor& cursor,
+                                   const RunBase& base) {
     std::vector<CursorRow> rows;
     if (cursor.kind == Cursor::Kind::None) return rows;
     for (const auto& run : runs) {
         if (run->label.picture != picture || run->points.empty()) continue;
         CursorRow row = row_at(*run, kind, cursor);
-        if (const auto base = base_of(runs, *run)) {
-            row.ratio = ratio_of(row_at(*base, kind, cursor), row, cursor.kind);
+        if (const auto other = base_of(runs, *run, base)) {
+            row.ratio = ratio_of(row_at(*other, kind, cursor), row, cursor.kind);
         } else {
-            row.is_base = run->label.method == baseline_method();
+            row.is_base = is_base(run->label, base);
         }
         rows.push_back(row);
     }

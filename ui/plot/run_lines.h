@@ -1,6 +1,7 @@
 // Runs as curves: error and cost of a point, and the name, color and line style of a run.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -65,12 +66,22 @@ struct PlotMarker {
 };
 PlotMarker marker_of(const RunLabel& label);
 
+/// Whether two runs differ at most in their seeds, in what was learned before, and in how far they have come.
+bool are_of_one_kind(const RunLabel& a, const RunLabel& b);
+
 /// Null if no run has this number.
 std::shared_ptr<const LiveRun> find_run(RunList runs, std::uint64_t number);
 
-/// The run of the baseline method that `run` is compared with: of the same picture, and preferably with the same light
-/// sampling and on the same back end; else the newest. Null without one, and for that run itself.
-std::shared_ptr<const LiveRun> base_of(RunList runs, const LiveRun& run);
+/// The kind of run that all runs of a picture are compared with; empty: the baseline method, in the way of each run.
+using RunBase = std::optional<RunLabel>;
+/// The one of two runs in turns that is the base: 0 or 1, of the baseline method if only the first is, else the second.
+std::size_t base_side(const std::array<RunLabel, 2>& sides);
+/// Empty before that was measured, and where it is the usual one: of the baseline method, with the same light sampling.
+RunBase base_of_turns(RunList runs, const std::array<RunLabel, 2>& sides);
+bool is_base(const RunLabel& label, const RunBase& base);
+/// The run that `run` is compared with, the newest of `base`. Of the baseline method: of the same picture, and preferably with the same
+/// light sampling and on the same back end; else the newest. Null without one, and for that run itself.
+std::shared_ptr<const LiveRun> base_of(RunList runs, const LiveRun& run, const RunBase& base = {});
 
 // Runs at equal cost or equal error: the rows of the table under the plot.
 
@@ -89,8 +100,8 @@ struct CursorRow {
     std::optional<double> cost;        ///< in units of the axis
     std::optional<double> other_cost;  ///< samples if the axis is seconds, else seconds
     std::optional<double> error;
-    /// Gain over the baseline: its error at this cost, or its cost at this error, divided by the run's. Above 1 the run
-    /// is better; empty for the baseline.
+    /// Gain over base_of() it: its error at this cost, or its cost at this error, divided by the run's. Above 1 the run
+    /// is better; empty for the base.
     std::optional<double> ratio;
     bool is_base = false;
     double measured_from = 0.0;   ///< first and last cost of the run
@@ -98,7 +109,8 @@ struct CursorRow {
 };
 
 /// Rows of all runs of the picture that have points.
-std::vector<CursorRow> cursor_rows(RunList runs, std::uint64_t picture, const CurveKind& kind, const Cursor& cursor);
+std::vector<CursorRow> cursor_rows(RunList runs, std::uint64_t picture, const CurveKind& kind, const Cursor& cursor,
+                                   const RunBase& base = {});
 
 /// Index of the point whose picture represents a run at the cursor, among the points whose picture is kept: the nearest
 /// to the cost on a logarithmic axis, or the first from which on the error stays below; without a cursor the newest.

@@ -147,10 +147,7 @@ std::optional<RunGain> gain_by(ErrorMetric metric, RunList runs, const LiveRun& 
 
 }  // namespace
 
-bool are_repetitions(const RunLabel& a, const RunLabel& b) {
-    return a.method == b.method && a.backend == b.backend && a.next_event == b.next_event && a.warm == b.warm &&
-           a.picture == b.picture && a.details == b.details;
-}
+bool are_repetitions(const RunLabel& a, const RunLabel& b) { return are_of_one_kind(a, b) && a.warm == b.warm; }
 
 Repetitions repetitions_of(RunList runs, const LiveRun& like) {
     constexpr double kLeastShare = 0.5;
@@ -215,8 +212,8 @@ std::string too_few_text(const LiveRun& shorter) {
                        way_to(shorter.label.method));
 }
 
-MissingGain reason_without_gain(const LiveRun& run, bool has_base) {
-    if (run.label.method == baseline_method()) return MissingGain::IsBase;
+MissingGain reason_without_gain(bool is_base, bool has_base) {
+    if (is_base) return MissingGain::IsBase;
     return has_base ? MissingGain::TooFewSamples : MissingGain::NoBase;
 }
 
@@ -228,7 +225,7 @@ bool is_shorter(const LiveRun& a, const LiveRun& b) {
 /// `shorter`: of the two runs that are compared.
 std::string remark_of(const RunRow& row, const LiveRun& shorter) {
     switch (row.missing) {
-    case MissingGain::IsBase: return name_of(row.label) + ": other methods are compared with it";
+    case MissingGain::IsBase: return name_of(row.label) + ": other runs are compared with it";
     case MissingGain::TooFewSamples: return too_few_text(shorter);
     case MissingGain::NoBase: return missing_base_text(row.label);
     case MissingGain::None: break;
@@ -236,9 +233,10 @@ std::string remark_of(const RunRow& row, const LiveRun& shorter) {
     return row.gain->sentence;
 }
 
-RunRow row_of(RunList runs, const LiveRun& run) {
+RunRow row_of(RunList runs, const LiveRun& run, const RunBase& wanted) {
     RunRow row{.run = run.number,
                .label = run.label,
+               .is_base = is_base(run.label, wanted),
                .seeds = std::max<std::size_t>(repetitions_of(runs, run).size(), 1),
                .gain = std::nullopt,
                .remark = ""};
@@ -246,9 +244,10 @@ RunRow row_of(RunList runs, const LiveRun& run) {
         row.samples = cost_of(run.points.back(), CostAxis::Samples);
         row.seconds_per_sample = cost_of(run.points.back(), CostAxis::Seconds) / std::max(row.samples, 1.0);
     }
-    const auto base = base_of(runs, run);
-    if (base && run.label.method != baseline_method()) row.gain = gain_of_run(runs, *base, run);
-    if (!row.gain) row.missing = reason_without_gain(run, base != nullptr);
+    const auto base = base_of(runs, run, wanted);
+    if (base && !row.is_base) row.gain = gain_of_run(runs, *base, run);
+    if (!row.gain) row.missing = reason_without_gain(row.is_base, base != nullptr);
+    row.base = base ? base->number : 0;
     row.remark = remark_of(row, base && is_shorter(*base, run) ? *base : run);
     return row;
 }
@@ -256,23 +255,22 @@ RunRow row_of(RunList runs, const LiveRun& run) {
 /// The next step while no method with a field was measured. Nothing if one is being rendered: its row is about to come.
 std::string note_of(RunList runs, const std::vector<RunRow>& rows) {
     if (rows.empty()) return "Nothing measured yet: the plot begins with the second pass";
-    const auto is_base = [](const RunRow& row) { return row.label.method == baseline_method(); };
     const bool renders_base = std::ranges::any_of(rows, [&](const RunRow& row) {
         const auto run = find_run(runs, row.run);
-        return is_base(row) && run && run->in_progress;
+        return row.is_base && run && run->in_progress;
     });
-    if (!renders_base || !std::ranges::all_of(rows, is_base)) return "";
+    if (!renders_base || !std::ranges::all_of(rows, &RunRow::is_base)) return "";
     return fmt::format("Only {} so far: {} render with a learned field", info_of(baseline_method()).name,
                        method_keys(&MethodInfo::uses_field));
 }
 
 }  // namespace
 
-RunTable make_run_table(RunList runs, std::uint64_t picture) {
+RunTable make_run_table(RunList runs, std::uint64_t picture, const RunBase& base) {
     std::vector<Run> kinds = newest_of_kinds(runs, picture);
     keep_newest(kinds, RunTable::kMostRows);
-    RunTable table;
-    for (const Run& run : kinds) table.rows.push_back(row_of(runs, *run));
+    RunTable table{.base = base, .rows = {}, .older = {}, .note = {}};
+    for (const Run& run : kinds) table.rows.push_back(row_of(runs, *run, base));
     for (const Run& run : runs) {
         const bool is_row = std::ranges::any_of(kinds, [&](const Run& kind) { return kind->number == run->number; });
         if (run->label.picture == picture && !is_row) table.older.push_back(run->number);
@@ -283,12 +281,13 @@ RunTable make_run_table(RunList runs, std::uint64_t picture) {
 
 namespace {
 
-/// The newest row of a method that has a gain with an interval; null without one.
-const RunRow* measured_row(const RunTable& table, MethodId method, bool next_event) {
+/// The newest row of such a run that has a gain with an interval; null without one.
+template <class IsSuch>
+const RunRow* measured_row(const RunTable& table, IsSuch&& is_such) {
     const RunRow* newest = nullptr;
     for (const RunRow& row : table.rows)
-        if (row.label.method == method && row.label.next_event == next_event && row.gain &&
-            row.gain->source != IntervalSource::None && (newest == nullptr || row.run > newest->run))
+        if (is_such(row.label) && row.gain && row.gain->source != IntervalSource::None &&
+            (newest == nullptr || row.run > newest->run))
             newest = &row;
     return newest;
 }
@@ -302,7 +301,9 @@ std::string reason_text(const MethodInfo& method, Verdict verdict) {
 }  // namespace
 
 const RunRow* learning_row(const RunTable& table, bool next_event) {
-    const RunRow* const row = measured_row(table, learning_method(), next_event);
+    const RunRow* const row = measured_row(table, [&](const RunLabel& label) {
+        return label.method == learning_method() && label.next_event == next_event;
+    });
     return row != nullptr && !row->label.warm ? row : nullptr;
 }
 
@@ -318,13 +319,16 @@ std::string ahead_text(const RunRow& row) {
     return "neither ahead nor behind";
 }
 
-TurnsHeadline turns_headline(const RunTable& table, const std::array<MethodId, 2>& methods, bool next_event) {
-    const bool is_left = methods[0] != baseline_method();
-    const MethodId method = methods[is_left ? 0 : 1];
+TurnsHeadline turns_headline(const RunTable& table, const std::array<RunLabel, 2>& halves) {
+    const RunLabel& base = halves[base_side(halves)];
+    const bool is_left = base_side(halves) == 1;
+    const RunLabel& label = halves[is_left ? 0 : 1];
     const char* const own = is_left ? "left" : "right";
     const char* const other = is_left ? "right" : "left";
-    const RunRow* const row = measured_row(table, method, next_event);
-    if (row == nullptr) return {fmt::format("Both halves get the same time. Has the {} one less noise?", own), ""};
+    const RunRow* const row =
+        measured_row(table, [&](const RunLabel& other_label) { return are_of_one_kind(other_label, label); });
+    if (row == nullptr || !is_base(base, table.base))
+        return {fmt::format("Both halves get the same time. Has the {} one less noise?", own), "", nullptr};
     const Interval& net = row->gain->net;
     const Verdict verdict = verdict_of(net);
     const std::string detail =
@@ -332,10 +336,11 @@ TurnsHeadline turns_headline(const RunTable& table, const std::array<MethodId, 2
                     row->label.warm ? ", without the time of earlier learning" : "", other, ratio_text(net.value),
                     ratio_text(net.low), ratio_text(net.high));
     if (verdict != Verdict::Faster && verdict != Verdict::Slower)
-        return {"Same time, and no difference in noise between the halves that is beyond chance.", detail};
-    return {fmt::format("Same time, and the {} half is {}: {}.", own, ahead_text(*row),
-                        reason_text(info_of(method), verdict)),
-            detail};
+        return {"Same time, and no difference in noise between the halves that is beyond chance.", detail, row};
+    const bool differ_in_method = base.method == baseline_method() && base.next_event == label.next_event;
+    return {fmt::format("Same time, and the {} half is {}{}.", own, ahead_text(*row),
+                        differ_in_method ? ": " + reason_text(info_of(label.method), verdict) : ""),
+            detail, row};
 }
 
 std::string gain_text(const RunRow& row) {

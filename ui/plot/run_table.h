@@ -44,8 +44,10 @@ std::optional<RunGain> gain_of_run(RunList runs, const LiveRun& base, const Live
 enum class MissingGain { None, IsBase, TooFewSamples, NoBase };
 
 struct RunRow {
-    std::uint64_t run = 0;  ///< the newest of its repetitions
+    std::uint64_t run = 0;   ///< the newest of its repetitions
+    std::uint64_t base = 0;  ///< the run that it is compared with; 0 for none
     RunLabel label;
+    bool is_base = false;             ///< the others are compared with it
     std::size_t seeds = 1;            ///< runs that differ in the seed alone, this one included
     double samples = 0.0;             ///< per pixel
     double seconds_per_sample = 0.0;  ///< charged, set-up included; 0 before the first point
@@ -57,6 +59,7 @@ struct RunRow {
 struct RunTable {
     static constexpr std::size_t kMostRows = 6;
 
+    RunBase base{};
     std::vector<RunRow> rows;          ///< the newest kinds of runs, in the order of their first points
     std::vector<std::uint64_t> older;  ///< numbers of other runs of the picture, which a newer run or row replaces
     std::string note;  ///< the next step for a user who has nothing to compare; empty if there is a gain
@@ -64,15 +67,16 @@ struct RunTable {
 
 /// One row for each method, back end, use of light samples, start and further settings. Each is compared with
 /// base_of() it; a run that has just begun replaces no older one.
-RunTable make_run_table(RunList runs, std::uint64_t picture);
+RunTable make_run_table(RunList runs, std::uint64_t picture, const RunBase& base = {});
 
-/// Two methods in turns of equal time in words, as the table has measured them.
+/// Two runs in turns of equal time in words, as the table has measured them.
 struct TurnsHeadline {
-    std::string text;    ///< one sentence
-    std::string detail;  ///< the number behind it with its interval; empty as long as nothing is measured
+    std::string text;             ///< one sentence
+    std::string detail;           ///< the number behind it with its interval; empty as long as nothing is measured
+    const RunRow* row = nullptr;  ///< of the table: whose number it is
 };
-/// `methods`: of the left and the right half.
-TurnsHeadline turns_headline(const RunTable& table, const std::array<MethodId, 2>& methods, bool next_event);
+/// `halves`: the left and the right run. Their base is that of the table.
+TurnsHeadline turns_headline(const RunTable& table, const std::array<RunLabel, 2>& halves);
 
 /// The newest row of the method that learns, with or without light samples, if it has a gain with an interval and began with nothing
 /// learned; else null.

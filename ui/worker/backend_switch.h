@@ -33,6 +33,8 @@ public:
     /// other back end is unavailable or fails: then the session is unchanged, and the next try makes the other one
     /// anew.
     WorkerMessage switch_to(Session& session, const std::string& name);
+    /// One more of the current kind, for a session beside the first.
+    std::shared_ptr<RenderBackend> make_another() const { return make_(current_); }
     /// The current back end failed with this error and is dropped: moves the session to the fallback, with the
     /// learned tables if the failed one still returns them. Returns the message about it. Throws if the fallback
     /// fails, too.

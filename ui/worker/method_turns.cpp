@@ -30,12 +30,8 @@ std::size_t Turns::next(const std::array<double, 2>& charged_seconds) {
     return kOrder[turn_];
 }
 
-void MethodTurns::count_both(const Session& session, View view) {
-    for (const std::size_t side : {0u, 1u}) count_side(side, session, view);
-}
-
-void MethodTurns::count_side(std::size_t side, const Session& session, View view) {
-    const FilmSlot slot{status_.methods[side], view};
+void MethodTurns::count(std::size_t side, const Session& session, View view) {
+    const FilmSlot slot{status_.sides.methods[side], view};
     status_.passes[side] = session.passes(slot);
     status_.seconds[side] = work_seconds(session.clocks(slot));
     if (side == 0) field_ = session.field_status(slot.method);

@@ -1,4 +1,4 @@
-// Two methods of a session in turns of equal charged time: passes, seconds and limits of both, and whose turn it is.
+// Two runs in turns of equal charged time: passes, seconds and limits of both, and whose turn it is.
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@
 
 namespace pl::ui {
 
-// The order of two methods that share a machine in turns of equal time.
+// The order of two runs that share a machine in turns of equal time.
 
 /// Order A, B, B, A, so that a drifting clock or machine affects both alike. The turns equalize charged time: a pass
 /// longer than a turn shortens later ones.
@@ -37,34 +37,29 @@ class MethodTurns {
 public:
     static constexpr double kTurnSeconds = 0.25;
 
-    explicit MethodTurns(TurnMethods methods) { status_.methods = methods; }
+    explicit MethodTurns(const TurnSides& sides) { status_.sides = sides; }
 
     const TurnsStatus& status() const { return status_; }
-    MethodId first() const { return status_.methods[0]; }
+    MethodId first() const { return status_.sides.methods[0]; }
     /// The method whose turn it is.
-    MethodId method() const { return status_.methods[side_]; }
-    /// Of the first method, when it was last counted.
+    MethodId method() const { return status_.sides.methods[side_]; }
+    /// Of the first side, when it was last counted.
     const std::optional<FieldStatus>& field() const { return field_; }
 
-    /// Reads passes and seconds of both methods: edits may have emptied their films.
-    void count_both(const Session& session, View view);
-    /// Reads those of the method whose turn it is.
-    void count(const Session& session, View view) { count_side(side_, session, view); }
+    /// Reads passes and seconds of a side from its session, since edits may have emptied its film.
+    void count(std::size_t side, const Session& session, View view);
 
-    /// Passes and seconds of the method that decides about limits. Once one method has met a limit, the other one
-    /// decides, until it has had the same time and a pass; then the first one again. Empty before.
+    /// The side that decides about limits. Once one side has met a limit, the other one decides, until it has had the same time and a pass; then the first one again. Empty before.
     std::optional<std::size_t> side_at_limit(const Requests& now) const;
     bool limit_reached(const Requests& now) const;
 
-    /// The side that continues. While the camera moves it is the first method alone: the picture follows as quickly
+    /// The side that continues. While the camera moves it is the first one alone: the picture follows as quickly
     /// as without turns.
     std::size_t next(bool is_moving, const Requests& now);
     std::size_t side() const { return side_; }
     void set_side(std::size_t side) { side_ = side; }
 
 private:
-    void count_side(std::size_t side, const Session& session, View view);
-
     TurnsStatus status_;
     Turns order_{kTurnSeconds};
     std::size_t side_ = 0;

@@ -30,13 +30,14 @@ void PictureSize::resize(int width, int height) {
     divider_ = 0;
 }
 
-bool PictureSize::apply(Session& session, bool is_coarse) {
+bool PictureSize::apply(Session& session, bool is_coarse, Session* second) {
     const int divider = is_coarse ? motion_.divider_for(width_, height_) : 1;
     if (divider == divider_) return false;
     divider_ = divider;
     const EditSize size{divided(width_, divider), divided(height_, divider)};
     if (session.settings().width == size.width && session.settings().height == size.height) return false;
     session.apply(size);
+    if (second != nullptr) second->apply(size);
     return true;
 }
 

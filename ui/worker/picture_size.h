@@ -53,8 +53,8 @@ public:
 
     /// Sets another size at rest; the next apply() gives it to the session.
     void resize(int width, int height);
-    /// Gives the session the size for a picture that is coarse or not; true if its films were emptied.
-    bool apply(Session& session, bool is_coarse);
+    /// Gives a session, and one beside it if there is one, the size for a picture that is coarse or not; true if films were emptied.
+    bool apply(Session& session, bool is_coarse, Session* second = nullptr);
     /// Observes the seconds of a pass, which decide how coarse the next motion begins.
     void observe(double seconds) { motion_.observe(divider_, seconds); }
     /// The cost of a pass is unknown again.

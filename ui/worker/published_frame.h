@@ -55,6 +55,7 @@ struct PublishedFrame {
     std::uint64_t generation = 0;  ///< of the newest edit that this picture shows
     int divider = 1;               ///< width and height of the snapshot are divided by this
     Preview preview = Preview::None;
+    std::size_t side = 0;  ///< in turns: 1 if it is of the second side
     BackendInfo backend;
     std::shared_ptr<const SceneDescription> description;
     std::shared_ptr<const HostScene> scene;
@@ -80,10 +81,16 @@ PublishedFrame frame_of_film(Session& session, FilmSlot slot, const DisplaySetti
 enum class WorkerState { Starting, Rendering, Precomputing, Paused, Done, Failed };
 const char* name_of(WorkerState state);
 
-/// Two methods that render in turns of equal time.
-using TurnMethods = std::array<MethodId, 2>;
+/// Two runs that render in turns of equal time.
+struct TurnSides {
+    std::array<MethodId, 2> methods{};
+    /// Of the second run, where they are others than those of the session: another session renders it then.
+    std::shared_ptr<const RenderSettings> second{};
+
+    friend bool operator==(const TurnSides&, const TurnSides&) = default;
+};
 struct TurnsStatus {
-    TurnMethods methods{};
+    TurnSides sides{};
     std::array<std::uint32_t, 2> passes{};
     std::array<double, 2> seconds{};  ///< work_seconds() of each
     bool catching_up = false;         ///< one works alone until both have had the same time
@@ -96,7 +103,7 @@ struct WorkerStatus {
     std::uint64_t all_passes = 0;  ///< of every film, since the start
     int divider = 1;
     double seconds = 0.0;              ///< work_seconds()
-    std::optional<TurnsStatus> turns;  ///< then passes and seconds are those of the first method
+    std::optional<TurnsStatus> turns;  ///< then passes and seconds are those of the first side
     std::uint64_t generation = 0;
     std::uint64_t placement = 0;  ///< changes when numbers of volumes lose their meaning; refinement keeps them
     std::uint64_t picture = 0;    ///< picture_key() of the film, as RunLabel::picture; 0 while the camera moves

@@ -38,6 +38,7 @@ void RenderLoop::run(const WorkerSetup& setup) {
         if (!attempt([this] { work(); })) failed_ = true;
         update_status();
     }
+    second_.reset();
     session_.reset();
 }
 
@@ -88,17 +89,31 @@ bool RenderLoop::has_work() const {
 /// The picture rests, and its last passes were not measured.
 bool RenderLoop::lacks_last_point() const {
     return now_.paused && !is_coarse() && size_.is_whole() && !wants_pass() && preview_.now() == Preview::None &&
-           !runs_.is_up_to_date(*session_, slot());
+           !runs_.is_up_to_date(at_work(), slot());
 }
 
-/// Begins or ends turns as requested, and reads the time of both methods again: edits may have emptied their films.
+/// Begins or ends turns as requested, and reads the time of both sides again: edits may have emptied their films.
 void RenderLoop::settle_turns() {
-    if (!now_.turns) {
+    if (!now_.turns || (turns_ && turns_->status().sides != *now_.turns)) {
         turns_.reset();
-        return;
+        second_.reset();
     }
-    if (!turns_ || turns_->status().methods != *now_.turns) turns_.emplace(*now_.turns);
-    turns_->count_both(*session_, shown_.view);
+    if (!now_.turns) return;
+    if (!turns_) turns_.emplace(*now_.turns);
+    if (now_.turns->second && !second_ && !attempt([this] { make_second(); })) failed_ = true;
+    for (const std::size_t side : {0u, 1u}) turns_->count(side, session_of(side), shown_.view);
+}
+
+/// The session beside the first one, with the same picture.
+void RenderLoop::make_second() {
+    const RenderSettings& own = session_->settings();
+    RenderSettings settings = *now_.turns->second;
+    settings.width = own.width;
+    settings.height = own.height;
+    settings.camera = own.camera;
+    settings.seed = own.seed;
+    settings.max_depth = own.max_depth;
+    second_ = std::make_unique<Session>(*session_, backends_.make_another(), settings);
 }
 
 Preview RenderLoop::wanted_preview() const {
@@ -150,13 +165,26 @@ void RenderLoop::apply(const SessionEdit& edit) {
         return;
     }
     session_->apply(edit);
+    if (second_) follow(edit);
     if (std::holds_alternative<EditScene>(edit) || std::holds_alternative<EditMaterial>(edit))
         facts_ = facts_of(session_->scene());
     if (const auto* learned = std::get_if<EditLearned>(&edit)) shown_.method = learned->field->method;
 }
 
+/// Both sides are emptied together. Without its fields the second one is made anew, on the edited scene; it keeps settings of its own.
+void RenderLoop::follow(const SessionEdit& edit) {
+    RenderSettings settings = second_->settings();
+    const Invalidation clear = pl::take_over(edit, settings);
+    if (clear.tables)
+        second_.reset();
+    else if (std::holds_alternative<EditCamera>(edit))
+        second_->apply(edit);
+    else if (clear.films)
+        second_->apply(EditRestart{});
+}
+
 void RenderLoop::work() {
-    if (size_.apply(*session_, is_coarse())) cells_.invalidate();
+    if (size_.apply(*session_, is_coarse(), second_.get())) cells_.invalidate();
     const bool wants_volumes = selected_.wants(now_.volume) || wants_pins();
     if (passes() > 0 && (frames_.is_asked() || frames_.is_stale(now_) || wants_volumes) &&
         !holds_frames_back()) {  // a parked picture is shown at once
@@ -167,7 +195,7 @@ void RenderLoop::work() {
     answer_questions();
     if (turns_) take_turn();
     if (wants_pass()) render();
-    if (lacks_last_point() && runs_.observe(*session_, slot(), true)) outbox_.set_runs(runs_.runs());
+    if (lacks_last_point() && runs_.observe(at_work(), slot(), true)) outbox_.set_runs(runs_.runs());
     observe_field();
     if (*inbox_.stop_flag()) return;
     if (now_.cells && !cells_.is_current(*session_) && passes() > 0 && cells_.render(*session_, inbox_.stop_flag()))
@@ -189,7 +217,7 @@ void RenderLoop::render() {
     const Stopwatch watch;
     const bool is_whole = !is_coarse() && size_.is_whole();
     const std::uint32_t before = passes();
-    const Progress progress = session_->advance(slot(), inbox_.stop_flag(), is_whole ? most_passes() : 1);
+    const Progress progress = at_work().advance(slot(), inbox_.stop_flag(), is_whole ? most_passes() : 1);
     all_passes_ += passes() - before;
     if (progress == Progress::Rendered) {
         if (passes() == 1) frames_.ask();
@@ -198,9 +226,9 @@ void RenderLoop::render() {
         const double shown = now_.denoised && !turns_ ? denoised_.seconds_for(film.width, film.height) : 0.0;
         size_.observe(watch.seconds() / std::max(1u, passes() - before) + shown);
     }
-    if (turns_) turns_->count(*session_, shown_.view);
-    const bool is_last = now_.paused || now_.is_enough(passes(), work_seconds(session_->clocks(slot())));
-    if (is_whole && runs_.observe(*session_, slot(), is_last)) outbox_.set_runs(runs_.runs());
+    if (turns_) turns_->count(turns_->side(), at_work(), shown_.view);
+    const bool is_last = now_.paused || now_.is_enough(passes(), seconds());
+    if (is_whole && runs_.observe(at_work(), slot(), is_last)) outbox_.set_runs(runs_.runs());
     update_status();
     if (now_.once.steps > 0 || limit_reached() || now_.paused) frames_.ask();
 }
@@ -225,17 +253,17 @@ bool RenderLoop::limit_reached() const {
     // A coarser picture, or a preview, is replaced at rest; one that is neither goes on, with all samples of the motion.
     if (is_coarse() && !(size_.is_whole() && preview_.now() == Preview::None)) return false;
     if (turns_) return turns_->limit_reached(now_);
-    return now_.is_enough(passes(), work_seconds(session_->clocks(slot())));
+    return now_.is_enough(passes(), seconds());
 }
 
 bool RenderLoop::is_publishing_due() const {
-    const double seconds = turns_ ? turns_->status().seconds[0] : work_seconds(session_->clocks(slot()));
-    return frames_.is_due(passes(), now_.moving, seconds) && outbox_.is_frame_taken();
+    const double charged = turns_ ? turns_->status().seconds[0] : seconds();
+    return frames_.is_due(passes(), now_.moving, charged) && outbox_.is_frame_taken();
 }
 
 /// At rest after a motion, while more passes follow.
 bool RenderLoop::holds_frames_back() const {
-    return !turns_ && wants_pass() && preview_.holds_back(passes(), work_seconds(session_->clocks(slot())));
+    return !turns_ && wants_pass() && preview_.holds_back(passes(), seconds());
 }
 
 void RenderLoop::publish() {
@@ -246,12 +274,13 @@ void RenderLoop::publish() {
     // In turns neither side is denoised: one alone would mislead.
     const bool denoises = now_.denoised && !turns_ && passes() < DenoisedPreview::kEnoughPasses;
     auto frame =
-        std::make_shared<PublishedFrame>(frame_of_film(*session_, slot(), now_.display, now_.values || denoises));
+        std::make_shared<PublishedFrame>(frame_of_film(at_work(), slot(), now_.display, now_.values || denoises));
     frame->settings.width = size_.width();
     frame->settings.height = size_.height();
     frame->generation = now_.generation;
     frame->divider = size_.divider();
     frame->preview = preview_.now();
+    frame->side = turns_ ? turns_->side() : 0;
     frame->backend.name = backends_.current();
     if (denoises) denoised_.add_to(*frame, *session_);
     frame->facts = facts_;
@@ -278,13 +307,13 @@ WorkerStatus RenderLoop::make_status() const {
     status.passes = passes();
     status.all_passes = all_passes_;
     status.picture =
-        size_.is_whole() && preview_.now() == Preview::None ? runs_.picture(session_->film_origin(slot())) : 0;
+        size_.is_whole() && preview_.now() == Preview::None ? runs_.picture(at_work().film_origin(slot())) : 0;
     status.scene = session_->shared_scene();
     status.divider = size_.divider();
     status.generation = now_.generation;
     status.placement = placement_;
     status.field = session_->field_status(shown_.method);
-    status.seconds = work_seconds(session_->clocks(slot()));
+    status.seconds = seconds();
     status.backend = backends_.current();
     status.backends = backends_.choices();
     if (turns_) {

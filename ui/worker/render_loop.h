@@ -39,6 +39,8 @@ private:
     bool take_requests();
     bool has_work() const;
     void settle_turns();
+    void make_second();
+    void follow(const SessionEdit& edit);
     Preview wanted_preview() const;
     void settle_preview(Preview wanted);
     void adopt_reference();
@@ -68,12 +70,17 @@ private:
     void backend_changed();
     void settle_backend(const std::string& asked);
 
-    /// The film under way, and the method of answers and inspections.
+    /// The film under way, and its session.
     FilmSlot slot() const {
         return turns_ ? FilmSlot{turns_->method(), shown_.view} : preview_.slot(*session_, shown_);
     }
+    Session& session_of(std::size_t side) const { return side == 1 && second_ ? *second_ : *session_; }
+    Session& at_work() const { return session_of(turns_ ? turns_->side() : 0); }
+    std::uint32_t passes() const { return at_work().passes(slot()); }
+    double seconds() const { return work_seconds(at_work().clocks(slot())); }
+    /// The method of answers and inspections, and its film.
     MethodId asked_method() const { return turns_ ? turns_->first() : shown_.method; }
-    std::uint32_t passes() const { return session_->passes(slot()); }
+    FilmSlot asked_slot() const { return turns_ ? FilmSlot{turns_->first(), shown_.view} : slot(); }
     bool is_coarse() const { return size_.is_coarse(now_); }
     WorkerState state_of(const WorkerStatus& status) const;
     WorkerStatus make_status() const;
@@ -87,6 +94,7 @@ private:
     FilmSlot shown_;  ///< method and view of the window, apart from turns
     PictureSize size_;
     std::optional<MethodTurns> turns_;
+    std::unique_ptr<Session> second_;  ///< of the second side of turns, if its settings are others
     MotionPreview preview_;
     DenoisedPreview denoised_;
     Recorder runs_;

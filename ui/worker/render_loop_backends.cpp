@@ -56,6 +56,7 @@ bool RenderLoop::take_over(const std::exception& error) {
 
 void RenderLoop::backend_changed() {
     failed_ = false;
+    second_.reset();
     selected_.invalidate();
     for (Inspection& pin : pins_) pin.invalidate();
     frames_.ask();

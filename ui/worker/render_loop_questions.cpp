@@ -20,18 +20,19 @@ void RenderLoop::answer_questions() {
     now_.once.learned = false;
     if (now_.once.diagnostics)
         outbox_.answer(size_.is_whole()
-                           ? answer_diagnostics(*session_, slot(), now_.generation)
+                           ? answer_diagnostics(*session_, asked_slot(), now_.generation)
                            : DiagnosticsAnswer{.reason = "the camera moves: let the picture come to rest first",
                                                .generation = now_.generation});
     now_.once.diagnostics = false;
     if (now_.once.paths)
         outbox_.answer(size_.is_whole()
-                           ? answer_paths(*session_, slot(), now_.generation)
+                           ? answer_paths(*session_, asked_slot(), now_.generation)
                            : PathsAnswer{.reason = "the camera moves: let the picture come to rest first",
                                          .generation = now_.generation});
     now_.once.paths = false;
     if (now_.once.gain)
-        outbox_.answer(size_.is_whole() ? answer_gain(*session_, slot()) : GainAnswer{.reason = "the camera moves"});
+        outbox_.answer(size_.is_whole() ? answer_gain(*session_, asked_slot())
+                                        : GainAnswer{.reason = "the camera moves"});
     now_.once.gain = false;
 }
 

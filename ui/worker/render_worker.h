@@ -42,8 +42,8 @@ public:
     void set_reference(std::shared_ptr<const LiveReference> reference) {
         set(&Requests::reference, std::move(reference));
     }
-    /// Lets two methods render in turns of equal charged time; empty ends it.
-    void set_turns(std::optional<TurnMethods> methods) { set(&Requests::turns, methods, Interrupts::Pass); }
+    /// Lets two runs render in turns of equal charged time; empty ends it.
+    void set_turns(const std::optional<TurnSides>& sides) { set(&Requests::turns, sides, Interrupts::Pass); }
     /// Whether frames carry the image of the volumes' cells.
     void set_cells_wanted(bool wanted) { set(&Requests::cells, wanted); }
     /// Requests the surface under a point of the image, in [0,1)^2 from the top left.

@@ -40,7 +40,7 @@ struct Requests {
     std::int32_t volume = kNoVolume;   ///< selected for inspection
     std::vector<std::int32_t> pins{};  ///< further ones
     std::size_t history_bytes = 0;     ///< memory for key frames of the field; 0: none are taken
-    std::optional<TurnMethods> turns{};
+    std::optional<TurnSides> turns{};
     std::shared_ptr<const LiveReference> reference{};
     std::string backend{};
     std::uint64_t generation = 0;  ///< number of edits and switches of back ends so far

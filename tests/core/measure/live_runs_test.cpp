@@ -68,6 +68,19 @@ TEST_CASE("each of the first passes is measured, whatever measuring costs") {
     CHECK(recording.last().points.size() == 2);
 }
 
+TEST_CASE("a film that another one replaces leaves its number of passes, measured or not") {
+    Recording recording(kPlenty, 0.0);
+    recording.render(LiveRuns::kLastMeasured + 7);
+    CHECK(recording.last().points.back().spp == LiveRuns::kLastMeasured);
+    CHECK(recording.last().passes == LiveRuns::kLastMeasured);
+    recording.slot.method = kLearner;
+    recording.render(1);
+    CHECK(recording.run(0).passes == LiveRuns::kLastMeasured + 7);
+    STATIC_CHECK_FALSE(is_old(2, 3));
+    STATIC_CHECK_FALSE(is_old(40, 51));
+    STATIC_CHECK(is_old(40, 52));
+}
+
 TEST_CASE("points are a twelfth of a decade apart and hold cost, noise and picture") {
     Recording recording;
     CHECK(recording.runs.current()->runs.empty());
@@ -202,6 +215,36 @@ TEST_CASE(
     CHECK(back->runs.size() == 2);
     CHECK(back->runs[0]->in_progress);
     CHECK(back->runs[0]->points.back().spp > one->runs[0]->points.back().spp);
+}
+
+TEST_CASE("two sessions side by side are followed as one, also through a camera move that both make") {
+    Recording recording;
+    RenderSettings settings = recording.session.settings();
+    settings.roulette = RouletteRule::Albedo;
+    Session second(recording.session, make_cpu_backend({.threads = 1}), settings);
+    CHECK(second.packed_scene() == recording.session.packed_scene());
+    const auto render_both = [&](int passes) {
+        for (int i = 0; i < passes; ++i) {
+            recording.render(1);
+            second.advance(recording.slot);
+            recording.runs.observe(second, recording.slot);
+        }
+    };
+    render_both(4);
+    REQUIRE(recording.count() == 2);
+    CHECK(recording.run(0).number != recording.run(1).number);
+    CHECK(recording.run(0).points.size() == recording.run(1).points.size());
+    CHECK(recording.run(1).settings.roulette == RouletteRule::Albedo);
+    CHECK(recording.run(0).settings.roulette == recording.session.settings().roulette);
+    CHECK(recording.session.film_origin(recording.slot).generation == second.film_origin(recording.slot).generation);
+    CameraDescription camera = settings.camera;
+    camera.eye.x += 0.01f;
+    recording.session.apply(EditCamera{camera});
+    second.apply(EditCamera{camera});
+    render_both(4);
+    REQUIRE(recording.count() == 4);
+    CHECK(recording.run(2).label.picture == recording.run(3).label.picture);
+    CHECK(recording.run(3).points.size() > 1);
 }
 
 TEST_CASE("other views are not measured, and interrupt no run") {

@@ -45,6 +45,23 @@ TEST_CASE("Sides: a choice counts as long as it shows this picture") {
     CHECK(resolve_sides(input_of(runs), state).b->run == 1);  // there is no reference: automatic
 }
 
+TEST_CASE("Sides: the picture of a file is either side, and the other one is a run") {
+    const Runs runs = two_runs();
+    const OpenedPicture opened{.pixels = plain_picture(0x3800), .name = "other.exr"};
+    CompareState state;
+    state.b = {SideChoice::What::File, 0};
+    CompareInput input = input_of(runs);
+    CHECK(resolve_sides(input, state).b->run == 1);  // nothing is opened: automatic
+    input.file = &opened;
+    CHECK(resolve_sides(input, state).a->run == 2);
+    CHECK(resolve_sides(input, state).b->picture == opened.pixels);
+    CHECK(resolve_sides(input, state).b->label == "other.exr");
+    CHECK(resolve_sides(input, state).fit_together());
+    std::swap(state.a, state.b);
+    CHECK(resolve_sides(input, state).a->label == "other.exr");
+    CHECK(resolve_sides(input, state).b->run == 2);
+}
+
 TEST_CASE("Sides: cursors choose the pictures, and what is missing is said") {
     const Runs runs = two_runs();
     const Cursor time{Cursor::Kind::EqualCost, 3.3};

@@ -8,6 +8,7 @@
 #include "core/io/image.h"
 #include "tests/support/catch.hpp"
 #include "tests/ui/file_bench.h"
+#include "tests/ui/installed_programs.h"
 #include "ui/model/thumbnail.h"
 
 using namespace pl;
@@ -192,6 +193,19 @@ TEST_CASE("Sequence: writes every frame with its camera and its samples, and the
         CHECK(text_of(metadata, "spp") == "4");
     }
     CHECK(told(model, "3 frames are in "));
+}
+
+TEST_CASE("Sequence: PNG frames become a film where ffmpeg is installed") {
+    InstalledPrograms installed;
+    installed.add("ffmpeg", "for last; do :; done\necho \"$@\" > \"$last\"");
+    FileBench bench;
+    ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
+    add_two(model);
+    model.sequence().options() = {.frames = 2, .spp = 2};
+    model.sequence().begin();
+    REQUIRE(bench.run_until(model, [&] { return !model.sequence().progress() && !model.busy(); }));
+    CHECK(std::filesystem::exists(model.sequence().folder().string() + ".mp4"));
+    CHECK(told(model, "the film is "));
 }
 
 TEST_CASE("Sequence: stopped, it keeps the frames so far and the limits of before") {

@@ -33,6 +33,26 @@ TEST_CASE("Picture files: saves both formats under one new number") {
     CHECK(text_of(metadata, "command") == "pathlight render small");
 }
 
+TEST_CASE(
+    "Picture files: one with linear values that is opened becomes side B, ends turns, and is refused if damaged") {
+    FileBench bench;
+    ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
+    REQUIRE(bench.run_until(model, [&] { return has_frame(model); }));
+    model.comparison().set_turns(true);
+    const std::filesystem::path path = bench.folder.path() / "other.exr";
+    write_exr(path, {.width = 2, .height = 1, .pixels = {glm::vec3(0.5f), glm::vec3(2.0f)}});
+    model.files().open(path.string());
+    REQUIRE(bench.run_until(model, [&] { return model.comparison().opened() != nullptr; }));
+    CHECK(model.comparison().opened()->name == "other.exr");
+    CHECK(pixels_of(*model.comparison().opened()->pixels)[1] == glm::vec3(2.0f));
+    CHECK(model.comparison().state().mode == CompareMode::Split);
+    CHECK(model.comparison().state().b.what == SideChoice::What::File);
+    CHECK_FALSE(model.comparison().in_turns());
+    model.files().open(bench.folder.write("bad.pfm", "PF").string());
+    CHECK(bench.run_until(model, [&] { return told(model, "bad.pfm"); }));
+    CHECK(model.comparison().opened()->name == "other.exr");
+}
+
 TEST_CASE("Saved fields: a learned field is saved, and rendering continues from it") {
     FileBench bench;
     {

@@ -107,3 +107,25 @@ TEST_CASE("Accuracy model: a hidden run stays hidden, another picture makes runs
     model.toggle_hidden(2);
     CHECK_FALSE(model.lines()[1].hidden);
 }
+
+TEST_CASE("Accuracy model: a row is old while a picture of its comparison has many samples more than were measured") {
+    Runs runs = two_runs();
+    AccuracyModel model;
+    model.update(set_of(runs), kThisPicture, 0.0);
+    const auto is_old = [&] { return model.is_old(model.table().rows.at(1)); };
+    model.set_passes(129);
+    CHECK_FALSE(is_old());
+    model.set_passes(400);
+    CHECK(is_old());
+    CHECK(model.age_text(model.table().rows.at(1)) ==
+          "Reinforcement CPU: measured after 128 of 400 samples per pixel.");
+    CHECK_FALSE(model.is_old(model.table().rows.at(0)));  // it waits, with all that was rendered
+    // The baseline rendered on without being measured before it was left.
+    const auto base = std::make_shared<LiveRun>(*runs[0]);
+    base->passes = 1000;
+    runs[0] = base;
+    model.update(set_of(runs), kThisPicture, 0.0);
+    model.set_passes(129);
+    CHECK(is_old());
+    CHECK(model.age_text(model.table().rows.at(1)) == "Default CPU: measured after 128 of 1000 samples per pixel.");
+}

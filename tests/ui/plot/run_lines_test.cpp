@@ -29,6 +29,15 @@ TEST_CASE("Cursors: at equal time errors are those of the curves, ratios are aga
     CHECK_THAT(*rows[1].ratio, WithinRel(2.0, 1e-9));
 }
 
+TEST_CASE("Cursors: ratios are against the base that is chosen") {
+    const Runs runs = two_runs();
+    const std::vector<CursorRow> rows =
+        cursor_rows(runs, kThisPicture, {}, {CursorKind::EqualCost, 3.2}, runs[1]->label);
+    REQUIRE(rows.size() == 2);
+    CHECK_THAT(*rows[0].ratio, WithinRel(0.5, 1e-9));
+    CHECK(rows[1].is_base);
+}
+
 TEST_CASE("Cursors: at equal error it is told who was there when") {
     // 1/48 lies between points: 4.8 s for default, 12 samples and 2.4 s for reinforcement.
     const std::vector<CursorRow> rows =

@@ -146,31 +146,61 @@ TEST_CASE("Run table: other settings are another row, a repetition replaces the 
 }
 
 TEST_CASE("Run table: one sentence on two methods in turns, by the number of the table") {
-    const std::array<MethodId, 2> methods{MethodId::Reinforcement, MethodId::Default};
     Runs runs = two_runs();
+    const std::array halves{runs[1]->label, runs[0]->label};
     RunTable table = make_run_table(runs, kThisPicture);
     // Without an interval nothing is claimed.
-    CHECK(turns_headline(table, methods, false).text ==
-          "Both halves get the same time. Has the left one less noise?");
-    CHECK(turns_headline(table, methods, false).detail == "");
+    CHECK(turns_headline(table, halves).text == "Both halves get the same time. Has the left one less noise?");
+    CHECK(turns_headline(table, halves).detail == "");
     RunRow& row = table.rows[1];
     const auto say = [&](double low, double value, double high) {
         row.gain->net = {value, low, high};
         row.gain->source = IntervalSource::Blocks;
-        return turns_headline(table, methods, false).text;
+        return turns_headline(table, halves).text;
     };
     CHECK(say(4.9, 5.2, 5.5) ==
           "Same time, and the left half is 5.2 times ahead: its paths have learned where the light comes from.");
-    CHECK(turns_headline(table, methods, false).detail ==
+    CHECK(turns_headline(table, halves).detail ==
           "Measured: for the same noise the right half would need 5.2 times as long (4.9 to 5.5).");
     CHECK(learning_row(table, false) == &row);
     CHECK(learning_row(table, true) == nullptr);
     CHECK(say(0.45, 0.5, 0.55) == "Same time, and the left half is 2 times behind: learning does not pay here.");
     CHECK_THAT(say(0.8, 1.0, 1.3), contains("no difference in noise"));
     say(4.9, 5.2, 5.5);
-    CHECK_THAT(turns_headline(table, {MethodId::Default, MethodId::Reinforcement}, false).text,
-               contains("the right half is 5.2 times ahead"));
-    CHECK_THAT(turns_headline(table, methods, true).text, contains("Has the left one less noise?"));
+    CHECK_THAT(turns_headline(table, {halves[1], halves[0]}).text, contains("the right half is 5.2 times ahead"));
+    std::array with_light_samples = halves;
+    for (RunLabel& half : with_light_samples) half.next_event = true;
+    CHECK_THAT(turns_headline(table, with_light_samples).text, contains("Has the left one less noise?"));
+}
+
+TEST_CASE(
+    "Run table: in turns of one method with two fields the second is the baseline of the table and the sentence") {
+    Runs runs = two_runs();
+    const auto tree = learned_run(3);
+    tree->label.details = "SD-tree";
+    for (LivePoint& point : tree->points) point.metrics->relmse *= 2.0;
+    const auto learned = std::make_shared<LiveRun>(*runs[1]);
+    for (LiveRun* const run : {tree.get(), learned.get()}) set_block_errors(*run, 1e-3);
+    runs[1] = learned;
+    const std::array halves{learned->label, tree->label};
+    CHECK_FALSE(base_of_turns(runs, halves));  // not measured yet
+    CHECK_THAT(turns_headline(make_run_table(runs, kThisPicture), halves).text,
+               contains("Has the left one less noise?"));
+    runs.push_back(tree);
+    const RunTable table = make_run_table(runs, kThisPicture, base_of_turns(runs, halves));
+    REQUIRE(table.rows.size() == 3);
+    CHECK(gain_text(table.rows[2]) == "baseline");
+    CHECK(gain_text(table.rows[1]) == "2x");
+    CHECK(table.rows[0].gain);  // default, too, is compared with it
+    CHECK(turns_headline(table, halves).text == "Same time, and the left half is 2 times ahead.");
+    CHECK_THAT(turns_headline(table, {halves[1], halves[0]}).text, contains("Has the left one less noise?"));
+    // The runs of all kinds of light sampling have default of their own for a baseline, in turns too.
+    const std::array with_default{tree->label, runs[0]->label};
+    CHECK_FALSE(base_of_turns(runs, with_default));
+    std::array other_light = with_default;
+    other_light[0].next_event = true;
+    CHECK(base_of_turns(runs, other_light)->method == MethodId::Default);
+    CHECK(base_of_turns(runs, {other_light[1], other_light[0]})->method == MethodId::Default);
 }
 
 TEST_CASE("Run table: as plain when learning loses, and without a reference") {

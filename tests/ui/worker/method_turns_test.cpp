@@ -60,7 +60,7 @@ TEST_CASE("Turns: the side that is behind catches up first, also when one starts
 
 namespace {
 
-constexpr TurnMethods kBoth{MethodId::Reinforcement, MethodId::Default};
+const TurnSides kBoth{.methods = {MethodId::Reinforcement, MethodId::Default}, .second = nullptr};
 
 bool both_rendered(const RenderWorker& worker, std::uint32_t passes) {
     const WorkerStatus status = worker.status();
@@ -69,12 +69,12 @@ bool both_rendered(const RenderWorker& worker, std::uint32_t passes) {
 
 }  // namespace
 
-TEST_CASE("Method turns: both films are counted, the field is that of the first method") {
+TEST_CASE("Method turns: both films are counted, the field is that of the first side") {
     SessionBench bench;
     bench.render(kLearning, 3);
     bench.render(kDefault, 2);
     MethodTurns turns(kBoth);
-    turns.count_both(bench.session, View::Beauty);
+    for (const std::size_t side : {0u, 1u}) turns.count(side, bench.session, View::Beauty);
     CHECK(turns.status().passes == std::array<std::uint32_t, 2>{3, 2});
     REQUIRE(turns.field());
     CHECK(turns.field()->passes == 3);
@@ -83,7 +83,7 @@ TEST_CASE("Method turns: both films are counted, the field is that of the first 
     CHECK(turns.method() == MethodId::Default);
     CHECK(turns.first() == MethodId::Reinforcement);
     bench.render(kDefault, 1);
-    turns.count(bench.session, View::Beauty);
+    turns.count(1, bench.session, View::Beauty);
     CHECK(turns.status().passes == std::array<std::uint32_t, 2>{3, 3});
 }
 
@@ -92,13 +92,13 @@ TEST_CASE("Method turns: a method at its limit waits until the other has had a p
     bench.render(kLearning, 4);
     MethodTurns turns(kBoth);
     Requests now{.limits = {.spp = 4, .seconds = 0.0}};
-    turns.count_both(bench.session, View::Beauty);
+    for (const std::size_t side : {0u, 1u}) turns.count(side, bench.session, View::Beauty);
     CHECK(turns.side_at_limit(now) == 1u);
     CHECK_FALSE(turns.limit_reached(now));
     CHECK(turns.next(false, now) == 1);
     CHECK(turns.next(true, now) == 0);
     bench.render(kDefault, 4);
-    turns.count_both(bench.session, View::Beauty);
+    for (const std::size_t side : {0u, 1u}) turns.count(side, bench.session, View::Beauty);
     CHECK(turns.limit_reached(now));
     now.limits = {};
     CHECK_FALSE(turns.side_at_limit(now));
@@ -178,4 +178,86 @@ TEST_CASE("Turns on the render thread: a limit waits for the first pass of both 
     // Usually the first method has one pass, since its placement is slow; on a busy machine the fake passes may be slower.
     CHECK(std::min(done.passes[0], done.passes[1]) >= 1);
     CHECK(std::max(done.passes[0], done.passes[1]) == 8);
+}
+
+namespace {
+
+/// Reinforcement on both sides; the second with twice the volumes, and not as the session that it is compared with otherwise.
+TurnSides with_more_volumes(const WorkerSetup& setup) {
+    auto second = std::make_shared<RenderSettings>(setup.settings);
+    second->field.volumes = 32;
+    second->width = 5;
+    second->seed = 99;
+    return {.methods = {MethodId::Reinforcement, MethodId::Reinforcement}, .second = second};
+}
+
+std::shared_ptr<const PublishedFrame> frame_of_side(RenderWorker& worker, std::size_t side) {
+    std::shared_ptr<const PublishedFrame> frame;
+    const bool found = eventually([&] {
+        frame = worker.latest();
+        return frame && frame->side == side && worker.status().turns;
+    });
+    return found ? frame : nullptr;
+}
+
+}  // namespace
+
+TEST_CASE("Turns on the render thread: one method with other settings is a run of its own, with the same picture") {
+    Bench bench;
+    bench.control->pass_microseconds = 2000;
+    const WorkerSetup setup = bench.setup(MethodId::Reinforcement);
+    RenderWorker worker(setup);
+    worker.set_turns(with_more_volumes(setup));
+    REQUIRE(eventually([&] { return both_rendered(worker, 20); }));
+    const auto first = frame_of_side(worker, 0);
+    const auto second = frame_of_side(worker, 1);
+    REQUIRE((first && second));
+    CHECK(first->settings.field.volumes == 16);
+    CHECK(second->settings.field.volumes == 32);
+    CHECK(second->settings.seed == setup.settings.seed);
+    CHECK(second->snapshot.width == kSize);
+    CHECK(second->scene == first->scene);
+    REQUIRE(eventually([&] { return worker.runs()->runs.size() == 2; }));
+    REQUIRE(rests(worker));
+    const TurnsStatus turns = *worker.status().turns;
+    CHECK_THAT(turns.seconds[0], WithinAbs(turns.seconds[1], 0.6));
+    const auto runs = worker.runs()->runs;
+    CHECK(runs[0]->label.picture == runs[1]->label.picture);
+    CHECK(runs[0]->label.details != runs[1]->label.details);
+    CHECK_THAT(runs[0]->label.details + runs[1]->label.details, contains("32 volumes"));
+}
+
+TEST_CASE("Turns on the render thread: edits begin both sides anew, and the second keeps its own settings") {
+    Bench bench;
+    bench.control->pass_microseconds = 500;
+    const WorkerSetup setup = bench.setup(MethodId::Reinforcement);
+    RenderWorker worker(setup);
+    worker.set_turns(with_more_volumes(setup));
+    REQUIRE(eventually([&] { return both_rendered(worker, 10); }));
+    RenderSettings settings = setup.settings;
+    settings.field.volumes = 8;
+    const auto shows = [&](std::uint64_t edit, std::size_t side, auto condition) {
+        return eventually([&] {
+            const auto frame = worker.latest();
+            return frame && frame->generation >= edit && frame->side == side && condition(*frame);
+        });
+    };
+    const std::uint64_t moved = worker.submit(EditCamera{camera_at(3.0f)});
+    CHECK(shows(moved, 1, [](const PublishedFrame& f) { return f.settings.camera.eye.x == 3.0f; }));
+    const std::uint64_t field = worker.submit(EditField{settings.field});
+    CHECK(shows(field, 0, [](const PublishedFrame& f) { return f.settings.field.volumes == 8; }));
+    CHECK(shows(field, 1, [](const PublishedFrame& f) {
+        return f.settings.field.volumes == 32 && f.settings.camera.eye.x == 3.0f;
+    }));
+    const std::uint64_t deeper = worker.submit(EditEstimator{5, false, RouletteRule::Albedo});
+    CHECK(shows(deeper, 1, [&](const PublishedFrame& f) {
+        return f.settings.max_depth == 5 && f.settings.roulette == settings.roulette;
+    }));
+    const std::uint64_t smaller = worker.submit(EditSize{32, 16});
+    CHECK(shows(smaller, 1, [](const PublishedFrame& f) { return f.snapshot.width == 32; }));
+    const std::uint64_t other_device = worker.switch_backend("cuda");
+    CHECK(shows(other_device, 1, [](const PublishedFrame& f) { return f.backend.name == "cuda"; }));
+    worker.set_turns(std::nullopt);
+    const std::uint64_t back = worker.submit(MethodId::Reinforcement);
+    CHECK(shows(back, 0, [](const PublishedFrame& f) { return f.settings.field.volumes == 8; }));
 }
