@@ -86,8 +86,8 @@ std::string report_text(const SceneReport& report) {
     const SceneDescription& scene = report.scene;
     const CameraDescription& camera = scene.camera;
     std::string text =
-        fmt::format("name       {}\nabout      {}\nfile       {}\nhash       {}\n", scene.name,
-                    scene.about.empty() ? "nothing said" : scene.about, scene.source.string(), scene_hash(scene));
+        fmt::format("name       {}\nsummary    {}\nfile       {}\nhash       {}\n", scene.name,
+                    scene.summary.empty() ? "nothing said" : scene.summary, scene.source.string(), scene_hash(scene));
     text += fmt::format("triangles  {}\nlights     {} triangles\nmaterials  {}\n", triangles_text(scene),
                         report.packed.lights.size(), scene.materials.size());
     for (const MaterialDescription& material : scene.materials)
@@ -153,7 +153,7 @@ Json json_of(const SceneReport& report) {
     for (const EffectRow& effect : report.effects)
         effects.push_back({{"name", effect.name}, {"reason", effect.reason}});
     Json json{{"name", scene.name},
-              {"about", scene.about},
+              {"summary", scene.summary},
               {"file", scene.source.string()},
               {"scene_hash", scene_hash(scene)},
               {"triangles", scene.triangles.size()},

@@ -172,9 +172,9 @@ def picture_scenes(program, _):
         file = Path(work) / "scene.png"
         for folder in sorted(path.parent for path in SCENES.glob("*/*.json")):
             subprocess.run([program, "render", folder.name, "-o", file, *SCENE_OPTIONS, "--backend", "cpu", "--quiet"], check=True)
-            about = json.loads((folder / f"{folder.name}.json").read_text())["about"]
+            summary = json.loads((folder / f"{folder.name}.json").read_text())["summary"]
             kept = [body for kind, body in chunks_of(file) if kind == b"tEXt" and body.startswith(b"picture_hash\0")]
-            shrink([[read_png(file)]], folder / f"{folder.name}.png", [*kept, b"about\0" + about.encode("latin-1")])
+            shrink([[read_png(file)]], folder / f"{folder.name}.png", [*kept, b"summary\0" + summary.encode("latin-1")])
 
 
 def inspect(program, name):

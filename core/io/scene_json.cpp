@@ -222,7 +222,7 @@ void read_settings(const JsonDocument& file, SceneDescription& scene) {
 
 SceneDescription load_scene_json(const std::filesystem::path& path, const LoadSettings& asked) {
     JsonDocument file(read_text_file(path), path);
-    file.object("", {"schema", "name", "about", "obj", "normals", "map_kd", "vertex_colors", "camera", "cameras",
+    file.object("", {"schema", "name", "summary", "obj", "normals", "map_kd", "vertex_colors", "camera", "cameras",
                      "environment", "lights", "materials", "knobs", "settings"});
     const std::optional<std::string> schema = file.text("/schema");
     if (schema != kSchema) {
@@ -242,7 +242,7 @@ SceneDescription load_scene_json(const std::filesystem::path& path, const LoadSe
     scene.source = path;
     scene.files.push_back(path);
     scene.name = file.text("/name").value_or(path.stem().string());
-    scene.about = file.text("/about").value_or("");
+    scene.summary = file.text("/summary").value_or("");
     read_vertex_colors(file, scene);
     read_materials(file, scene);
     read_knobs(file, scene, groups, asked.parameters);

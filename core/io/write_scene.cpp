@@ -175,7 +175,7 @@ public:
         const std::vector<std::string> names = material_names(scene_);
         write_mesh(scene_, names, folder_, "mesh");
         Json document{{"schema", "pathlight.scene/1"}, {"name", scene_.name}, {"obj", shown("mesh.obj")}};
-        if (!scene_.about.empty()) document["about"] = scene_.about;
+        if (!scene_.summary.empty()) document["summary"] = scene_.summary;
         if (!scene_.normals.empty()) document["normals"] = "unit";
         if (!scene_.vertex_colors.empty()) {
             write_vertex_colors(folder_ / "vertex-colors.exr", scene_.vertex_colors);

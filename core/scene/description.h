@@ -230,7 +230,7 @@ using ParameterTexts = std::vector<std::pair<std::string, std::string>>;
 /// Everything that decides the light transport of a scene, and its camera.
 struct SceneDescription {
     std::string name;
-    std::string about;                         ///< one line on what it shows; may be empty
+    std::string summary;                       ///< one line on what it shows; may be empty
     std::filesystem::path source;              ///< the file that was opened, for messages
     std::vector<std::filesystem::path> files;  ///< looked for by the loaders, without images, which have a `source`
     glm::dvec3 origin{0.0};                    ///< of all positions here, in the file's coordinates: see far_origin()

@@ -36,7 +36,7 @@ TEST_CASE("Every shipped scene has a small picture of what its files describe no
         SceneDescription scene = load_scene(name, kAssets);
         INFO("docs/make_pictures.py PROGRAM scenes makes it anew");
         CHECK(text_of(metadata, kPictureHashKey) == picture_hash(scene, settings_of(scene)));
-        CHECK(text_of(metadata, "about") == scene.about);
+        CHECK(text_of(metadata, "summary") == scene.summary);
         scene.materials[0].albedo.x *= 0.5f;
         CHECK(text_of(metadata, kPictureHashKey) != picture_hash(scene, settings_of(scene)));
     }
@@ -46,8 +46,8 @@ TEST_CASE("Every shipped scene tells in one line what it shows, as the list of s
     const std::string list = read_file(kAssets / "scenes" / "README.md");
     for (const std::string& name : list_scenes(kAssets)) {
         CAPTURE(name);
-        const std::string about = load_scene(name, kAssets).about;
-        CHECK_FALSE(about.empty());
-        CHECK(list.find("| " + about + " |") != std::string::npos);
+        const std::string summary = load_scene(name, kAssets).summary;
+        CHECK_FALSE(summary.empty());
+        CHECK(list.find("| " + summary + " |") != std::string::npos);
     }
 }

@@ -52,7 +52,7 @@ SceneCards read_cards(const std::vector<std::string>& scenes, const std::filesys
         try {
             ImageMetadata metadata;
             ByteImage picture = read_png8(folder / name / (name + ".png"), &metadata);
-            cards[name] = {std::make_shared<const ByteImage>(std::move(picture)), text_of(metadata, "about")};
+            cards[name] = {std::make_shared<const ByteImage>(std::move(picture)), text_of(metadata, "summary")};
         } catch (const Error&) {
             continue;
         }

@@ -17,7 +17,7 @@ namespace pl::ui {
 /// What the dialog shows of a known scene.
 struct SceneCard {
     std::shared_ptr<const ByteImage> picture;
-    std::string about;  ///< one line
+    std::string summary;  ///< one line
 };
 
 /// The entries of a folder, sorted, without hidden files.

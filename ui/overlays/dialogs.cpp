@@ -290,7 +290,7 @@ void draw_field(OpenDialog& dialog) {
 void draw_hint(const SceneCard* card, const std::string& scene) {
     const float top = ImGui::GetCursorPosY();
     if (card != nullptr)
-        faint_text((scene + ": " + card->about).c_str());
+        faint_text((scene + ": " + card->summary).c_str());
     else
         faint_text("A double click or Enter opens, Esc closes. Files can also be dropped on the window.");
     ImGui::SetCursorPosY(top + 2.0f * ImGui::GetTextLineHeightWithSpacing());

@@ -34,7 +34,7 @@ std::string refused_members(const std::string& members) {
 TEST_CASE("A scene file with only the required members frames its geometry") {
     const SceneDescription scene = load_members("");
     CHECK(scene.name == "scene");
-    CHECK(scene.about.empty());
+    CHECK(scene.summary.empty());
     CHECK(scene.source.filename() == "scene.json");
     CHECK(scene.triangles.size() == 2);
     CHECK(scene.camera.target == glm::vec3(0, 1, 0));
@@ -46,7 +46,7 @@ TEST_CASE("A scene file with only the required members frames its geometry") {
 
 TEST_CASE("Everything a scene file may say") {
     const SceneDescription scene = load_members(
-        ", \"name\": \"Test\", \"about\": \"two triangles\", \"camera\": {\"eye\": [1, 2, 3], \"target\": [4, 5, "
+        ", \"name\": \"Test\", \"summary\": \"two triangles\", \"camera\": {\"eye\": [1, 2, 3], \"target\": [4, 5, "
         "6.5], \"up\": [0, 0, "
         "1], \"fov_deg\": 30,"
         "\"aperture_radius\": 0.25, \"focus_distance\": 2.5, \"shift_x\": 0.5, \"shift_y\": -1}, "
@@ -59,7 +59,7 @@ TEST_CASE("Everything a scene file may say") {
         "\"settings\": {\"spp\": 128, \"nee\": true, \"method\": \"reinforcement\", \"exposure\": -1.5, "
         "\"size\": \"640x480\"}");
     CHECK(scene.name == "Test");
-    CHECK(scene.about == "two triangles");
+    CHECK(scene.summary == "two triangles");
     CHECK(scene.camera.eye == glm::vec3(1, 2, 3));
     CHECK(scene.camera.target == glm::vec3(4, 5, 6.5f));
     CHECK(scene.camera.up == glm::vec3(0, 0, 1));

@@ -85,7 +85,7 @@ TEST_CASE("write_scene: shipped scenes without images have the same hash, camera
         CHECK(read.up == scene.up);
         CHECK(read.settings.size() == scene.settings.size());
         CHECK(read.name == scene.name);
-        CHECK(read.about == scene.about);
+        CHECK(read.summary == scene.summary);
     }
 }
 

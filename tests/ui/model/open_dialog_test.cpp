@@ -39,13 +39,13 @@ TEST_CASE("Open dialog: known scenes have the pictures and lines of their folder
     bench.options.scenes_folder = bench.folder.path();
     std::filesystem::create_directory(bench.folder.path() / "small");
     const ByteImage gray{.width = 2, .height = 2, .rgb = std::vector<std::uint8_t>(12, 77)};
-    write_png8(bench.folder.path() / "small" / "small.png", gray, {{"about", "one triangle"}});
+    write_png8(bench.folder.path() / "small" / "small.png", gray, {{"summary", "one triangle"}});
     ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
     OpenDialog& dialog = model.open_dialog();
     dialog.toggle();
     REQUIRE(bench.run_until(model, [&] { return dialog.card_count() > 0; }));
     REQUIRE(dialog.card("small") != nullptr);
-    CHECK(dialog.card("small")->about == "one triangle");
+    CHECK(dialog.card("small")->summary == "one triangle");
     CHECK(dialog.card("small")->picture->rgb == gray.rgb);
     CHECK(dialog.card("other") == nullptr);
 }
