@@ -19,7 +19,7 @@ struct Films {
     std::shared_ptr<StoppingBackend> backend = std::make_shared<StoppingBackend>();
     RenderInputs inputs;
     SessionFields fields{inputs};
-    FilmRenderer films{inputs, fields};
+    FilmRenderer films{inputs, fields, std::make_shared<FilmNumbers>()};
 
     explicit Films(const std::string& scene = "door")
         : inputs{.backend = backend,

@@ -11,7 +11,7 @@ namespace {
 
 /// The frame of a film of this many samples.
 std::shared_ptr<const PublishedFrame> frame_after(Bench& bench, std::uint32_t spp, bool denoised,
-                                                  std::optional<TurnMethods> turns = {}) {
+                                                  std::optional<TurnSides> turns = {}) {
     RenderWorker worker(bench.setup(MethodId::Default, {.spp = spp}));
     worker.set_denoised_wanted(denoised);
     worker.set_turns(turns);
@@ -41,7 +41,8 @@ TEST_CASE("Denoised preview: a display beside the picture, below 16 samples") {
 
 TEST_CASE("Denoised preview: none in turns of two methods, of data views and on devices") {
     Bench bench;
-    CHECK(frame_after(bench, 4, true, TurnMethods{MethodId::Default, MethodId::Reinforcement})->denoised.width == 0);
+    CHECK(frame_after(bench, 4, true, TurnSides{.methods = {MethodId::Default, MethodId::Reinforcement}})
+              ->denoised.width == 0);
     RenderWorker worker(bench.setup());
     worker.set_denoised_wanted(true);
     auto frame = frame_of(worker, worker.submit(View::Normal));
