@@ -58,7 +58,7 @@ class Scene:
     def __init__(self, name, title, shows, about, camera, materials, unit="meter", **more):
         self.name, self.about, self.unit = name, about, unit
         self.materials = materials
-        self.json = {"schema": "pathlight.scene/1", "name": title, "about": shows, "obj": f"{name}.obj",
+        self.json = {"schema": "pathlight.scene/1", "name": title, "summary": shows, "obj": f"{name}.obj",
                      "camera": dict(zip(("eye", "target", "up", "fov_deg"), camera)), **more}
         self.lines, self.vertices, self.normals, self.uvs, self.triangles = [], 0, 0, 0, 0
         self.images = {}  # file name -> bytes

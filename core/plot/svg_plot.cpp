@@ -39,13 +39,12 @@ public:
             layout_.width, layout_.height, markup_text(plot_.title));
         draw_floor();
         draw_axes();
-        text_ +=
-            fmt::format("<clipPath id=\"frame\"><rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"/></clipPath>\n"
-                        "<g clip-path=\"url(#frame)\">\n",
-                        layout_.left, layout_.top, frame_right() - layout_.left, frame_bottom() - layout_.top);
+        // An inner image clips what it holds.
+        text_ += fmt::format("<svg x=\"{0}\" y=\"{1}\" width=\"{2}\" height=\"{3}\" viewBox=\"{0} {1} {2} {3}\">\n",
+                             layout_.left, layout_.top, frame_right() - layout_.left, frame_bottom() - layout_.top);
         for (const PlotSeries& series : plot_.series) draw_band(series);
         for (const PlotSeries& series : plot_.series) draw_line(series);
-        text_ += "</g>\n";
+        text_ += "</svg>\n";
         draw_legend();
         return text_ + "</svg>\n";
     }

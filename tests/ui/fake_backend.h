@@ -88,6 +88,9 @@ public:
         return tables_.at(method);
     }
     bool has_field(MethodId method) const override { return tables_.count(method) > 0; }
+    FieldReport field_report(MethodId method) const override {
+        return has_field(method) ? RenderBackend::field_report(method) : FieldReport{};
+    }
 
     void reset_film(FilmSlot slot, int width, int height) override {
         require_device();
