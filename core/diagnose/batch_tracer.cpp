@@ -128,8 +128,9 @@ Vec3f incident_along(const Departure& departure, Vec3f radiance) {
 /// Directions at the vertices of a batch, and their densities.
 struct Answers {
     std::vector<Vec3f> directions;
-    std::vector<float> pdf;        ///< of the sampler; empty without one
-    std::vector<float> light_pdf;  ///< towards the light samples; where there is none its value is not used
+    std::vector<float> pdf;  ///< of the sampler; empty without one
+    std::vector<float>
+        light_pdf;  ///< towards the light samples, empty without them; where a vertex has none its value is not used
     float bsdf_fraction = 1.0f;
 
     float mixed(float bsdf_pdf, const std::vector<float>& sampler_pdf, std::uint32_t i) const {
@@ -157,7 +158,7 @@ Answers ask(const DirectionSampler* sampler, const PathSettings& settings, std::
                         fmt::format("sampler, vertex {} of pixel {}: expected a density above 0 of the "
                                     "direction that it sampled, got 0",
                                     i, vertices[i].pixel));
-    answers.light_pdf = sampler->pdf(vertices, to_lights);
+    if (settings.next_event != 0) answers.light_pdf = sampler->pdf(vertices, to_lights);
     return answers;
 }
 
