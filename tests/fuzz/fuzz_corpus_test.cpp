@@ -3,6 +3,8 @@
 #include <filesystem>
 #include <random>
 
+#include <fmt/format.h>
+
 #include "core/io/checkpoint_file.h"
 #include "core/io/field_file.h"
 #include "core/io/files.h"
@@ -93,6 +95,10 @@ TEST_CASE("Scripts of the corpora are played on the viewer's model and panels", 
                       contains("there is no control 'Trace the clicked pixel'"));
     CHECK_THROWS_WITH(play("0 tap Tab\n3 aim_at 0.5 0.5 Paths"), contains("there is no control 'Paths'"));
     CHECK_NOTHROW(play("0 tap Tab\n2 tap Tab\n6 aim_at 0.5 0.5 Paths"));
+    // Lobes come from the helper thread, and are drawn without a renderer here.
+    std::string lobes = "0 tap 3\n1 tap U\n";
+    for (int frame = 3; frame < 180; frame += 3) lobes += fmt::format("{} move {} 9\n", frame, frame);
+    CHECK_NOTHROW(play(lobes.c_str()));
 }
 #endif
 

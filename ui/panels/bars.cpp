@@ -113,12 +113,11 @@ public:
             ImGui::SameLine(0.0f, em(0.5f));
         }
         first_ = false;
+        ImGui::BeginGroup();
         ImGui::PushStyleColor(ImGuiCol_Text, color);
         ImGui::TextUnformatted(text.c_str());
         ImGui::PopStyleColor();
-        const bool is_clicked = ImGui::IsItemClicked();
-        tooltip(tip);
-        // As wide as it ever was: numbers that grow move nothing at their right.
+        // As wide as it ever was: numbers that grow move nothing at their right. The room behind a shorter text is clicked, too.
         float* const widest = ImGui::GetStateStorage()->GetFloatRef(ImGui::GetID(tip));
         const float width = ImGui::GetItemRectSize().x;
         *widest = std::max(*widest, width);
@@ -126,6 +125,9 @@ public:
             ImGui::SameLine(0.0f, 0.0f);
             ImGui::Dummy({*widest - width, 0.0f});
         }
+        ImGui::EndGroup();
+        const bool is_clicked = ImGui::IsItemClicked();
+        tooltip(tip);
         return is_clicked;
     }
 

@@ -145,6 +145,14 @@ std::optional<RunGain> gain_by(ErrorMetric metric, RunList runs, const LiveRun& 
     return result;
 }
 
+/// Nothing can be told of such a run yet.
+bool has_just_begun(const LiveRun& run) { return run.points.empty() || run.points.back().spp < kFewestSamples; }
+
+/// Of two runs of one kind the newer one counts, unless it has just begun, or had when it was ended.
+bool replaces(const LiveRun& newer, const LiveRun& older) {
+    return !newer.points.empty() && (!has_just_begun(newer) || has_just_begun(older));
+}
+
 }  // namespace
 
 bool are_repetitions(const RunLabel& a, const RunLabel& b) { return are_of_one_kind(a, b) && a.warm == b.warm; }
@@ -155,7 +163,10 @@ Repetitions repetitions_of(RunList runs, const LiveRun& like) {
     double longest = 0.0;
     for (const auto& run : runs) {
         if (!are_repetitions(run->label, like.label) || run->points.empty()) continue;
-        std::erase_if(repetitions, [&](const auto& other) { return other->label.seed == run->label.seed; });
+        const auto same = std::ranges::find_if(
+            repetitions, [&](const auto& other) { return other->label.seed == run->label.seed; });
+        if (same != repetitions.end() && !replaces(*run, **same)) continue;
+        if (same != repetitions.end()) repetitions.erase(same);
         repetitions.push_back(run);
     }
     for (const auto& run : repetitions) longest = std::max(longest, charged_until(*run));
@@ -173,10 +184,7 @@ namespace {
 
 using Run = std::shared_ptr<const LiveRun>;
 
-/// The run that stands for all repetitions of `like`: the newest, unless it has just begun.
-bool is_better(const Run& candidate, const Run& now) { return !candidate->points.empty() || now->points.empty(); }
-
-/// The newest run of each kind, in the order of the kinds' first runs.
+/// The run of each kind that stands for it, in the order of the kinds' first runs.
 std::vector<Run> newest_of_kinds(RunList runs, std::uint64_t picture) {
     std::vector<Run> newest;
     for (const Run& run : runs) {
@@ -185,7 +193,7 @@ std::vector<Run> newest_of_kinds(RunList runs, std::uint64_t picture) {
             std::ranges::find_if(newest, [&](const Run& other) { return are_repetitions(other->label, run->label); });
         if (same == newest.end())
             newest.push_back(run);
-        else if (is_better(run, *same))
+        else if (replaces(*run, **same))
             *same = run;
     }
     return newest;

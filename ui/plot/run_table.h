@@ -31,8 +31,8 @@ struct RunGain {
 /// Whether two runs differ at most in their seeds, and in how far they have come.
 bool are_repetitions(const RunLabel& a, const RunLabel& b);
 
-/// The newest run like this one for each seed, if it was measured for at least half as long as the longest of them: one
-/// that has just begun would shorten all others.
+/// The newest run like this one for each seed that was measured with some samples and for at least half as long as the longest of
+/// them: one that has just begun would shorten all others.
 std::vector<std::shared_ptr<const LiveRun>> repetitions_of(RunList runs, const LiveRun& like);
 
 /// `run` and its repetitions against `base` and its own. By Metrics::relmse if both have it, else by their own noise,

@@ -143,6 +143,11 @@ TEST_CASE("Run table: other settings are another row, a repetition replaces the 
     Runs with_begun = two_runs();
     with_begun.push_back(begun);
     CHECK(make_run_table(with_begun, kThisPicture).rows[1].run == 2);
+    // Nor does one that was ended after a few samples: nothing can be told of it.
+    with_begun.back() = make_run({.number = 30, .method = MethodId::Reinforcement, .last_sample = 4});
+    const RunTable kept = make_run_table(with_begun, kThisPicture);
+    CHECK(kept.rows[1].run == 2);
+    CHECK(kept.rows[1].gain);
 }
 
 TEST_CASE("Run table: one sentence on two methods in turns, by the number of the table") {
