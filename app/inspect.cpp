@@ -19,7 +19,6 @@
 #include "core/base/timer.h"
 #include "core/io/files.h"
 #include "core/io/picture_file.h"
-#include "core/scene/scene_hash.h"
 #include "core/session/path_settings.h"
 
 namespace pl {
@@ -156,7 +155,7 @@ int run_inspect(const CommandLine& line, Console& console) {
     if (options.history && history.empty())
         throw Error(ErrorKind::Runtime, "--history: no pass has trained the field, so that there is no key frame");
     const InspectionSource source{.scene = options.scene,
-                                  .scene_hash = scene_hash(*loaded.scene),
+                                  .scene_hash = session.scene_hash(),
                                   .method = std::string(info_of(options.render.method).name),
                                   .spp = session.passes(slot),
                                   .seed = options.render.seed,

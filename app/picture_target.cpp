@@ -50,7 +50,7 @@ ImageMetadata metadata_of(const Session& session, const Snapshot& snapshot, cons
                           const std::string& command, bool interrupted) {
     ImageMetadata metadata{{"Software", "pathlight " PL_VERSION}, {"command", command}};
     if (snapshot.slot.view == View::Beauty)
-        metadata.emplace_back(kPictureHashKey, picture_hash(session.scene(), session.settings()));
+        metadata.emplace_back(kPictureHashKey, picture_hash(session.scene_hash(), session.settings()));
     if (interrupted) metadata.emplace_back("partial", "true");
     for (const char* key : {"scene", "scene_hash", "light", "method", "view", "backend", "width", "height", "spp",
                             "seed", "max_depth", "nee", "kernel"}) {

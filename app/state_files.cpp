@@ -11,6 +11,7 @@
 #include "core/base/memory.h"
 #include "core/base/timer.h"
 #include "core/io/field_file.h"
+#include "core/scene/scene_hash.h"
 #include "core/session/exact_backend.h"
 
 namespace pl {
@@ -86,7 +87,7 @@ std::shared_ptr<const LearnedField> FieldFiles::take(const SceneDescription& sce
     const auto field = std::make_shared<LearnedField>(std::move(*loaded_));
     loaded_.reset();
     try {
-        require_learned_in(scene, *field);
+        require_learned_in(scene_hash(scene), *field);
     } catch (const Error& error) {
         throw Error(error.kind(), fmt::format("{}: {}", options.load_field, error.what()));
     }

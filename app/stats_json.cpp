@@ -8,7 +8,6 @@
 #include "core/bench/figures_json.h"
 #include "core/scene/default_light.h"
 #include "core/scene/needed_effects.h"
-#include "core/scene/scene_hash.h"
 
 namespace pl {
 namespace {
@@ -89,7 +88,7 @@ Json stats_json(const Session& session, const Snapshot& snapshot, const Options&
     Json stats{{"schema", "pathlight.stats/1"},
                {"version", PL_VERSION},
                {"scene", options.scene},
-               {"scene_hash", scene_hash(session.scene())},
+               {"scene_hash", session.scene_hash()},
                {"light", name_of(light_of(session.scene()))},
                {"method", info_of(settings.method).name},
                {"view", info_of(settings.view).name},

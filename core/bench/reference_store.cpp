@@ -45,8 +45,9 @@ Number number_in(const fs::path& path, const ImageMetadata& metadata, const char
 }  // namespace
 
 PictureContent content_of(const SceneDescription& scene, const RenderSettings& settings) {
-    return {.picture_hash = picture_hash(scene, settings),
-            .scene_hash = scene_hash(scene),
+    std::string hash = scene_hash(scene);
+    return {.picture_hash = picture_hash(hash, settings),
+            .scene_hash = std::move(hash),
             .width = settings.width,
             .height = settings.height,
             .max_depth = settings.max_depth};

@@ -171,7 +171,7 @@ RunLabel LiveRuns::label_of(const Session& session, FilmSlot slot, const FilmOri
             .next_event = session.settings().next_event,
             .warm = origin.warm,
             .seed = session.settings().seed,
-            .picture = picture_key(session.scene(), session.settings()),
+            .picture = picture_key(session.scene_hash(), session.settings()),
             .details = details_ ? details_(session, slot) : std::string()};
 }
 

@@ -3,13 +3,12 @@
 #include <fmt/format.h>
 
 #include "core/base/hash.h"
-#include "core/scene/scene_hash.h"
 
 namespace pl {
 
-std::uint64_t picture_key(const SceneDescription& scene, const RenderSettings& settings) {
+std::uint64_t picture_key(const std::string& scene_hash, const RenderSettings& settings) {
     Fnv1a hash;
-    hash.add(scene_hash(scene));
+    hash.add(scene_hash);
     const CameraDescription& camera = settings.camera;
     for (const glm::vec3& v : {camera.eye, camera.target, camera.up})
         for (int i = 0; i < 3; ++i) hash.add(v[i]);
@@ -28,8 +27,8 @@ std::uint64_t picture_key(const SceneDescription& scene, const RenderSettings& s
     return hash.value();
 }
 
-std::string picture_hash(const SceneDescription& scene, const RenderSettings& settings) {
-    return fmt::format("{:016x}", picture_key(scene, settings));
+std::string picture_hash(const std::string& scene_hash, const RenderSettings& settings) {
+    return fmt::format("{:016x}", picture_key(scene_hash, settings));
 }
 
 }  // namespace pl

@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <string>
 
-#include "core/scene/description.h"
 #include "core/session/settings.h"
 
 namespace pl {
@@ -12,10 +11,10 @@ namespace pl {
 /// Key of the hash in metadata of pictures and in manifests.
 inline constexpr const char* kPictureHashKey = "picture_hash";
 
-/// Over the scene's light (scene_hash), the camera, the size and the maximal depth; not over method, next-event
+/// Over the scene's light (scene_hash()), the camera, the size and the maximal depth; not over method, next-event
 /// estimation, seed, field or back end, which change the noise and never the mean.
-std::uint64_t picture_key(const SceneDescription& scene, const RenderSettings& settings);
+std::uint64_t picture_key(const std::string& scene_hash, const RenderSettings& settings);
 /// The same as 16 hexadecimal digits.
-std::string picture_hash(const SceneDescription& scene, const RenderSettings& settings);
+std::string picture_hash(const std::string& scene_hash, const RenderSettings& settings);
 
 }  // namespace pl

@@ -3,15 +3,13 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
-#include "core/scene/scene_hash.h"
 
 namespace pl {
 
-void require_learned_in(const SceneDescription& scene, const LearnedField& field) {
-    const std::string hash = scene_hash(scene);
-    if (field.scene_hash != hash)
+void require_learned_in(const std::string& scene_hash, const LearnedField& field) {
+    if (field.scene_hash != scene_hash)
         throw Error(ErrorKind::Input,
-                    fmt::format("the field was learned in another scene: expected scene hash {}, got {}", hash,
+                    fmt::format("the field was learned in another scene: expected scene hash {}, got {}", scene_hash,
                                 field.scene_hash));
 }
 

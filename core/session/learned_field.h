@@ -58,7 +58,7 @@ inline Representation representation_of(const FieldSettings& settings, MethodId 
 }
 
 /// Throws Error(Input) if the field was learned in another scene.
-void require_learned_in(const SceneDescription& scene, const LearnedField& field);
+void require_learned_in(const std::string& scene_hash, const LearnedField& field);
 
 /// "reinforcement, 1000 volumes, 256 directions, 12 passes, 34567 records"; of an SD-tree its leaves and nodes in place of directions.
 std::string summary_of(const LearnedField& field);

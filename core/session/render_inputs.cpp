@@ -3,6 +3,7 @@
 #include "core/base/error.h"
 #include "core/base/timer.h"
 #include "core/scene/pack_scene.h"
+#include "core/scene/scene_hash.h"
 #include "core/scene/validate.h"
 #include "core/session/served_kernel.h"
 
@@ -27,6 +28,11 @@ SessionScene SessionScene::with_material(std::uint32_t index, const MaterialDesc
     changed.description_ = std::move(description);
     changed.build_seconds_ = build_seconds_;
     return changed;
+}
+
+const std::string& SessionScene::hash() const {
+    if (hash_.empty()) hash_ = scene_hash(*description_);
+    return hash_;
 }
 
 std::optional<bool> SessionScene::encloses(glm::vec3 eye, bool may_take_long) const {

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "core/scene/description.h"
 #include "core/scene/enclosure.h"
@@ -25,6 +26,8 @@ public:
     const std::shared_ptr<const SceneDescription>& description() const { return description_; }
     const std::shared_ptr<const HostScene>& packed() const { return packed_; }
     double build_seconds() const { return build_seconds_; }
+    /// scene_hash() of the description, which reads all of it: computed once, when first asked for.
+    const std::string& hash() const;
 
     /// Whether closed surfaces surround a camera at `eye`. Sorting the edges of a million triangles takes half a second, once: empty
     /// for large scenes whose edges are not sorted yet, unless it `may_take_long`.
@@ -36,6 +39,7 @@ private:
     std::shared_ptr<const SceneDescription> description_;
     std::shared_ptr<const HostScene> packed_;
     mutable std::optional<Enclosure> enclosure_;  ///< once it was asked for
+    mutable std::string hash_;                    ///< once it was asked for
     double build_seconds_ = 0.0;
 };
 

@@ -6,7 +6,6 @@
 #include "core/base/timer.h"
 #include "core/fields/place_volumes.h"
 #include "core/kernel/integrator/holes.h"
-#include "core/scene/scene_hash.h"
 #include "core/session/exact_backend.h"
 #include "core/session/path_settings.h"
 #include "core/session/settings.h"
@@ -229,7 +228,7 @@ std::optional<PickedPoint> Session::pick(Vec2f film_point) {
 std::vector<std::pair<std::string, std::string>> Session::identity() const {
     std::vector<std::pair<std::string, std::string>> identity = settings_text(settings());
     identity.emplace(identity.begin(), "back end", backend().name);
-    identity.emplace(identity.begin(), "scene hash", scene_hash(scene()));
+    identity.emplace(identity.begin(), "scene hash", scene_hash());
     return identity;
 }
 

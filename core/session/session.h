@@ -91,6 +91,7 @@ public:
     RenderSettings settings_for(FilmSlot slot) const { return inputs_->settings_for(slot); }
     const SceneDescription& scene() const { return *inputs_->scene.description(); }
     std::shared_ptr<const SceneDescription> shared_scene() const { return inputs_->scene.description(); }
+    const std::string& scene_hash() const { return inputs_->scene.hash(); }
     std::shared_ptr<const HostScene> packed_scene() const { return inputs_->scene.packed(); }
     BackendInfo backend() const { return inputs_->backend->info(); }
     RenderBackend& backend_access() { return *inputs_->backend; }

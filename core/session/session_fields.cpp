@@ -6,7 +6,6 @@
 #include "core/base/timer.h"
 #include "core/fields/field_choices.h"
 #include "core/kernel/integrator/probe.h"
-#include "core/scene/scene_hash.h"
 #include "core/session/path_settings.h"
 #include "core/session/refinement_schedule.h"
 #include "core/session/update_schedule.h"
@@ -317,7 +316,7 @@ LearnedField SessionFields::export_field(MethodId method) const {
     if (!has_field(method))
         throw Error(ErrorKind::Usage, "method '" + std::string(info_of(method).name) + "' has learned nothing yet");
     return {.method = method,
-            .scene_hash = scene_hash(*inputs_.scene.description()),
+            .scene_hash = inputs_.scene.hash(),
             .settings = settings(),
             .shape = placement_.shape(),
             .volumes = placement_.volumes(),
@@ -327,7 +326,7 @@ LearnedField SessionFields::export_field(MethodId method) const {
 }
 
 void SessionFields::import_field(LearnedField learned) {
-    require_learned_in(*inputs_.scene.description(), learned);
+    require_learned_in(inputs_.scene.hash(), learned);
     if (!info_of(learned.method).uses_field || !fits_together(learned, scene()))
         throw Error(ErrorKind::Input, "the field's volumes and tables do not fit together");
     Placement adopted = placement_;

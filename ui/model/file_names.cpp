@@ -9,6 +9,7 @@
 #include "core/base/error.h"
 #include "core/io/field_file.h"
 #include "core/io/picture_file.h"
+#include "core/scene/scene_hash.h"
 
 namespace pl::ui {
 
@@ -62,7 +63,7 @@ void save_window_pixels(const std::filesystem::path& path, const ByteImage& pixe
 std::shared_ptr<LearnedField> load_window_field(const std::filesystem::path& path, const SceneDescription& scene) {
     const auto field = std::make_shared<LearnedField>(read_field(path));
     try {
-        require_learned_in(scene, *field);
+        require_learned_in(scene_hash(scene), *field);
     } catch (const Error& error) {
         throw Error(error.kind(), fmt::format("{}: {}", path.string(), error.what()));
     }

@@ -4,6 +4,7 @@
 
 #include "core/bench/reference_store.h"
 #include "core/measure/picture_identity.h"
+#include "core/scene/scene_hash.h"
 
 namespace pl::ui {
 namespace {
@@ -16,7 +17,7 @@ std::shared_ptr<const StoredReference> to_viewer(const bench::Reference& referen
     if (!reference.has_samples()) return nullptr;
     const auto& [first, second] = reference.halves;
     auto stored = std::make_shared<StoredReference>();
-    stored->halves = {.picture = picture_key(scene, settings),
+    stored->halves = {.picture = picture_key(scene_hash(scene), settings),
                       .width = settings.width,
                       .height = settings.height,
                       .first = first.image.pixels,

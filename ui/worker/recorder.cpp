@@ -57,7 +57,7 @@ bool Recorder::observe(const Session& session, FilmSlot slot, bool is_last) {
     const FilmOrigin origin = session.film_origin(slot);
     if (origin.number != 0 && (picture_ == 0 || origin.generation != generation_)) {
         generation_ = origin.generation;
-        picture_ = picture_key(session.scene(), session.settings());
+        picture_ = picture_key(session.scene_hash(), session.settings());
     }
     return runs_.observe(session, slot, is_last);
 }

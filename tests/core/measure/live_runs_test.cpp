@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/base/error.h"
+#include "core/scene/scene_hash.h"
 #include "tests/core/measure/recording.h"
 #include "tests/support/catch.hpp"
 
@@ -94,7 +95,7 @@ TEST_CASE("points are a twelfth of a decade apart and hold cost, noise and pictu
     CHECK(run.label.method == MethodId::Default);
     CHECK(run.label.backend == "cpu");
     CHECK_FALSE(run.label.warm);
-    CHECK(run.label.picture == picture_key(recording.scene, recording.session.settings()));
+    CHECK(run.label.picture == picture_key(scene_hash(recording.scene), recording.session.settings()));
     REQUIRE(run.points.size() == 15);
     for (std::size_t i = 10; i < run.points.size(); ++i)
         CHECK(seconds_of(run.points[i]) >= std::pow(10.0, 1.0 / 12.0) * seconds_of(run.points[i - 1]));

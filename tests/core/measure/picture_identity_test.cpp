@@ -3,6 +3,7 @@
 
 #include <functional>
 
+#include "core/scene/scene_hash.h"
 #include "tests/support/catch.hpp"
 #include "tests/support/scenes/closed_scenes.h"
 
@@ -12,7 +13,7 @@ TEST_CASE("everything that decides the converged picture changes its hash") {
     const SceneDescription scene = furnace_scene(1.0f, 0.5f);
     RenderSettings settings;
     settings.camera = scene.camera;
-    const std::string hash = picture_hash(scene, settings);
+    const std::string hash = picture_hash(scene_hash(scene), settings);
     CHECK(hash.size() == 16);
     const std::vector<std::function<void(SceneDescription&, RenderSettings&)>> changes{
         [](SceneDescription& s, RenderSettings&) { s.materials[0].emission *= 1.01f; },  // light power
@@ -42,14 +43,14 @@ TEST_CASE("everything that decides the converged picture changes its hash") {
         RenderSettings other = settings;
         changes[i](changed, other);
         CAPTURE(i);
-        CHECK(picture_hash(changed, other) != hash);
+        CHECK(picture_hash(scene_hash(changed), other) != hash);
     }
 }
 
 TEST_CASE("settings that only decide the noise do not change the hash") {
     SceneDescription scene = furnace_scene(1.0f, 0.5f);
     RenderSettings settings;
-    const std::string hash = picture_hash(scene, settings);
+    const std::string hash = picture_hash(scene_hash(scene), settings);
     settings.method = MethodId::Reinforcement;
     settings.seed = 77;
     settings.next_event = true;
@@ -61,7 +62,7 @@ TEST_CASE("settings that only decide the noise do not change the hash") {
     settings.camera.focus_distance = 7.0f;  // of a pinhole
     scene.textures = {{.width = 1, .height = 1, .texels = {{1, 1, 1, 1}}}};  // of no material
     scene.uvs = {{0, 0}};
-    CHECK(picture_hash(scene, settings) == hash);
+    CHECK(picture_hash(scene_hash(scene), settings) == hash);
 }
 
 }  // namespace pl::test

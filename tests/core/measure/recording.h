@@ -58,11 +58,12 @@ struct Recording {
 
     std::shared_ptr<LiveReference> truth() const {
         const std::vector<Vec3f> exact(kSide * kSide, Vec3f(kEmission / (1.0f - kAlbedo)));
-        return std::make_shared<LiveReference>(LiveReference{.picture = picture_key(scene, session.settings()),
-                                                             .width = kSide,
-                                                             .height = kSide,
-                                                             .first = exact,
-                                                             .second = exact});
+        return std::make_shared<LiveReference>(
+            LiveReference{.picture = picture_key(session.scene_hash(), session.settings()),
+                          .width = kSide,
+                          .height = kSide,
+                          .first = exact,
+                          .second = exact});
     }
 };
 

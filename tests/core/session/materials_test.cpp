@@ -110,10 +110,11 @@ TEST_CASE("Material edit: the session goes on like a new one of the changed scen
         INFO(change.text);
         Session session = used_session(change.before, tiny_settings(change.before, true));
         const double placed = session.clocks(kLearningFilm).place;
+        CHECK(session.scene_hash() == scene_hash(change.before));
         session.apply(change.edit);
         CHECK(session.passes(kLearningFilm) == 0);
-        CHECK(scene_hash(session.scene()) == scene_hash(change.after()));
-        CHECK(scene_hash(session.scene()) != scene_hash(change.before));
+        CHECK(session.scene_hash() == scene_hash(change.after()));
+        CHECK(session.scene_hash() != scene_hash(change.before));
         CHECK((session.clocks(kLearningFilm).place == placed) == change.keeps_volumes);
         check_like_fresh(session, change.after());
     }

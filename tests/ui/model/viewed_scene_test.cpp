@@ -9,6 +9,7 @@
 #include "core/base/error.h"
 #include "core/io/files.h"
 #include "core/measure/picture_identity.h"
+#include "core/scene/scene_hash.h"
 #include "tests/support/catch.hpp"
 #include "tests/support/scenes/shapes.h"
 #include "tests/ui/file_bench.h"
@@ -271,7 +272,7 @@ TEST_CASE("Viewed scene: an edited material reaches the picture, and its scene i
     SceneDescription changed = *scene;
     changed.materials[0] = coated;
     RenderSettings settings = model.render().settings();
-    CHECK(model.status().picture == picture_key(changed, settings));
+    CHECK(model.status().picture == picture_key(scene_hash(changed), settings));
     REQUIRE(bench.run_until(model, [&] { return model.frame()->description->materials[0] == coated; }));
 
     model.scene().restore_material(0);

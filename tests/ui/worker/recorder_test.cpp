@@ -18,7 +18,7 @@ TEST_CASE("Recorder: the picture is known once a film of its generation was obse
     CHECK(recorder.runs());
     bench.render(kDefault, 1);
     recorder.observe(bench.session, kDefault);
-    const std::uint64_t picture = picture_key(bench.session.scene(), bench.session.settings());
+    const std::uint64_t picture = picture_key(bench.session.scene_hash(), bench.session.settings());
     CHECK(recorder.picture(bench.session.film_origin(kDefault)) == picture);
     bench.render(kLearning, 1);
     CHECK(recorder.picture(bench.session.film_origin(kLearning)) == picture);
