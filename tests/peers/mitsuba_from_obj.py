@@ -9,7 +9,7 @@ import json
 import sys
 from pathlib import Path
 
-KNOWN_OPTIONS = {"schema", "name", "obj", "camera"}
+KNOWN_OPTIONS = {"schema", "name", "obj", "camera", "summary"}
 KNOWN_WORDS = {"Kd", "Ks", "Ke", "Pm", "Tf", "Ni", "illum", "Pl_roughness", "Pl_surface", "Pl_ior"}
 
 
