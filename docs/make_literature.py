@@ -154,7 +154,7 @@ def differences(table, settings):
 
 
 def published_beside(benches, published):
-    """Published factors beside those of benches without light samples, where the settings agree; else what does not."""
+    """Published factors beside the factors of benches without light samples, where the settings agree; else what does not."""
     text = "## Beside published figures\n\nAll are without light samples; none of these scenes has published figures with them.\n\n"
     for table in published["tables"]:
         names = list(table["methods"])[1:]
