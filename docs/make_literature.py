@@ -3,6 +3,7 @@
 
 Usage: make_literature.py [BENCH...]   each folder of `pathlight bench --protocol ...` that `pathlight report` has made a page of replaces
 the results of its name in literature/, and its pictures; without any, the page is made again of those that are there.
+       make_literature.py --check      exit code 1 if the page is not what the raw results give
 """
 import base64
 import json
@@ -153,7 +154,7 @@ def differences(table, settings):
 
 
 def published_beside(benches, published):
-    """Published factors beside those of benches without light samples, where the settings agree; else what does not."""
+    """Published factors beside the factors of benches without light samples, where the settings agree; else what does not."""
     text = "## Beside published figures\n\nAll are without light samples; none of these scenes has published figures with them.\n\n"
     for table in published["tables"]:
         names = list(table["methods"])[1:]
@@ -224,21 +225,26 @@ def strips(benches):
 
 def credits():
     return """## The scenes
-Veach, Ajar and Veach, Bidir Room are by Benedikt Bitterli (CC0), after Eric Veach; The Breakfast Room, The Grey & White Room and The Wooden
-Staircase by Wig42 (CC-BY), Japanese Classroom by NovaZeeke (CC-BY), Contemporary Bathroom by Mareck (CC0), Spaceship by thecali (CC0), all in
-the conversions of [Bitterli's page](https://benedikt-bitterli.me/resources/). They are not part of this repository.
+Veach, Ajar and Veach, Bidir Room are by Benedikt Bitterli (CC0), after Eric Veach. The Breakfast Room, The Grey & White Room and The Wooden
+Staircase are by Wig42 (CC-BY), Japanese Classroom by NovaZeeke (CC-BY), Contemporary Bathroom by Mareck (CC0), Spaceship by thecali (CC0). All
+are in the conversions of [Bitterli's page](https://benedikt-bitterli.me/resources/). They are not part of this repository.
 """
 
 
 def main():
-    for folder in sys.argv[1:]:
-        keep(Path(folder))
+    check = sys.argv[1:] == ["--check"]
+    if not check:
+        for folder in sys.argv[1:]:
+            keep(Path(folder))
     benches = [Bench(path) for path in sorted(RAW.glob("*.json.xz"))]
     if not benches:
         sys.exit(__doc__)
     published = json.loads((RAW / "published.json").read_text())
     text = about(benches) + losses(benches) + goals(benches) + tables(benches) + published_beside(benches, published) + strips(benches) + credits()
-    (DOCS / "literature.md").write_text(text)
+    page = DOCS / "literature.md"
+    if check:
+        sys.exit(f"not what the raw results give: {page.name}" if page.read_text() != text else 0)
+    page.write_text(text)
 
 
 if __name__ == "__main__":

@@ -6,7 +6,7 @@ Usage: make_pictures.py PROGRAM [NAME...]   NAME is window, tour, error-map, doo
 For the first three the viewer plays pictures/NAME.script on SDL's dummy driver, so no display is needed; every `shot` of a script becomes
 a picture. `door` and `effects` are renderings, side by side where they are several. `cells` is what a volume has learned after more and
 more passes, at its right the truth. `learning` is animated, and wants a quiet machine: each of its frames is `default` and
-`reinforcement` after the same time. `scenes` are the small pictures of all scenes that come with the program, beside their files, for the
+`reinforcement` after the same time, and the disc of what a volume has learned by then. `scenes` are the small pictures of all scenes that come with the program, beside their files, for the
 list of scenes and for the window. Each has as text what the scene file tells about the scene, and the hash by which a test finds pictures
 of scenes that have changed.
 """
@@ -33,9 +33,10 @@ RENDERINGS = {
     "door": (["door"], ["--method", "reinforcement", "--spp", "64", "--size", "300x300"]),
     "effects": (["spheres", "coats", "plates"], ["--method", "reinforcement", "--spp", "128", "--size", "300x300"]),
 }
-# Of the animation: scene and options of both halves, and the seconds of each frame.
-LEARNING = ["door", "--nee", "off", "--size", "240x240", "--threads", "1"]
+# Of the animation: scene and options, the seconds of each frame, the place of the volume, and where `inspect` draws its disc.
+LEARNING = ["door", "--nee", "off", "--size", "260x260", "--threads", "1"]
 SECONDS = [0.1, 0.2, 0.4, 0.8, 1.6, 3.2]
+PLACE, DISC = ["--pixel", "150,225"], (24, 180, 520, 520)
 # Of the cells: options, passes, and where `inspect --truth` draws the learned and the true disc: x, y, width, height.
 CELLS = ["cornell", "--nee", "off", "--at", "400,0,200", "--size", "256x256", "--truth"]
 PASSES = [1, 4, 16, 64]
@@ -189,13 +190,16 @@ def inspect(program, name):
 
 def animate(program, name):
     with tempfile.TemporaryDirectory() as work:
-        frames = []
+        file, field, frames = Path(work) / "picture.png", Path(work) / "learned.field", []
         for seconds in SECONDS:
-            frames.append([Path(work) / f"{method}-{seconds}.png" for method in ("default", "reinforcement")])
-            for method, file in zip(("default", "reinforcement"), frames[-1]):
-                subprocess.run([program, "render", *LEARNING, "--method", method, "--time-limit", str(seconds), "-o", file,
-                                "--backend", "cpu", "--quiet"], check=True)
-        shrink([[read_png(file) for file in frame] for frame in frames], DOCS / "images" / f"{name}.png")
+            commands = [["render", *LEARNING, "--method", "default", "--time-limit", str(seconds)],
+                        ["render", *LEARNING, "--method", "reinforcement", "--time-limit", str(seconds), "--save-field", field],
+                        ["inspect", *LEARNING, *PLACE, "--load-field", field]]
+            frames.append([])
+            for command in commands:
+                subprocess.run([program, *command, "-o", file, "--backend", "cpu", "--quiet"], check=True)
+                frames[-1].append(halved(read_png(file), DISC) if command[0] == "inspect" else read_png(file))
+        shrink(frames, DOCS / "images" / f"{name}.png")
 
 
 def play(program, name):

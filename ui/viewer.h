@@ -70,7 +70,7 @@ struct ViewerPicture {
     SampleLimits limits;
     std::uint32_t spp = 0;  ///< samples per pixel so far
     std::string field{};  ///< file with the learned field that a picture like this one continues from; empty for none
-    std::string materials{};  ///< file with the materials of the window; empty if they are those of the scene's files
+    std::string materials{};  ///< file with the materials of the window; empty if they are as in the scene's files
     std::vector<std::string> edited_materials{};  ///< names of those that are not as in the scene's files
     std::optional<ViewerSequence> sequence{};     ///< in place of a single picture
 };

@@ -13,7 +13,7 @@ TEST_CASE("the drawn disc shows each cell at its directions") {
     volume.probability.assign(16, 1.0f / 16.0f);
     volume.visits.assign(16, 1);
     volume.radiance[15] = 1.0f;  // highest row and column: towards +x, +y
-    // The camera in front of the surface, upright: the disc's axes are x and y, as those of the cells.
+    // The camera in front of the surface, upright: the axes of the disc are x and y, as are the axes of the cells.
     const ByteImage image = draw_hemisphere(volume, {.eye = {0, 0, 5}}, "test");
     const Rgb bright = map_color_of(1.0f);
     const auto color_at = [&](int x, int y) {

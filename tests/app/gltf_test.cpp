@@ -1,4 +1,4 @@
-// glTF files from a shell: the picture of one is that of its OBJ twin, to the bit; cameras are listed and chosen.
+// glTF files from a shell: a file and its OBJ twin show the same picture, to the bit; cameras are listed and chosen.
 #include <nlohmann/json.hpp>
 
 #include "core/io/load_scene.h"

@@ -1,4 +1,4 @@
-// The letters of pictures are those of the window: the same font, rasterized as Dear ImGui does for it.
+// Pictures have the letters of the window: the same font, rasterized as Dear ImGui does for it.
 #include "app/pixel_font.h"
 
 #include <cmath>

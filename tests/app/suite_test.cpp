@@ -1,4 +1,4 @@
-// Suites of `pathlight bench` from a shell, with small scenes in the places of those of the literature.
+// Suites of `pathlight bench` from a shell, with small scenes in the places of the scenes of the literature.
 #include <filesystem>
 
 #include <nlohmann/json.hpp>

@@ -1,4 +1,4 @@
-// `pathlight trace` from a shell: the path that it prints is that of the rendered picture.
+// `pathlight trace` from a shell: it prints the path of the rendered picture.
 #include <nlohmann/json.hpp>
 
 #include "core/io/image.h"

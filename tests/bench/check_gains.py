@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """That learning never loses noticeably, with and without light samples, and that it gains what was measured.
 
-Usage: check_gains.py GAIN_BENCH [SCENE ...] [KEY=VALUE ...]; the keys are those of gain_bench. Or check_gains.py FILE: a file of
+Usage: check_gains.py GAIN_BENCH [SCENE ...] [KEY=VALUE ...]; the keys are gain_bench's. Or check_gains.py FILE: a file of
 gain_bench with all scenes, without and with light samples, seeds and samples as in DEFAULTS; the early gain is then not checked.
 check_gains.py --known FILE ... prints what KNOWN would be by such files.
 

@@ -7,7 +7,7 @@
 // is taken against two independent halves of a reference, (x-r1)(x-r2), whose noise drops out of the mean. References are
 // kept in the folder `references`, by content of the picture: delete them after a change that corrects pictures.
 //
-// Gain at equal samples: error of `default` over that of the method. Equal-time factor at a length: the same when both have
+// Gain at equal samples: error of `default` over the error of the method. Equal-time factor at a length: the same when both have
 // taken the time t that `default` needs for that length. Between checkpoints errors lie on straight lines in log-log; where a
 // run has ended before t, on a line of slope -1 from its last point. Means and 95 % intervals are over seeds, of logarithms
 // of ratios of runs with the same seed.

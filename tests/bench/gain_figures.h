@@ -16,13 +16,13 @@ using Intervals = std::array<Interval, kErrorNames.size()>;
 struct GainFigures {
     std::string length;         ///< "128", samples per pixel, or "0.7 s"
     Intervals base_errors{};    ///< of `default`
-    Intervals equal_samples{};  ///< error of `default` over that of the method
+    Intervals equal_samples{};  ///< error of `default` over the error of the method
     Intervals equal_time{};     ///< the same when both have taken the time of `default` at this length
-    Interval slowdown{};        ///< time of the method for the same samples, over that of `default`
+    Interval slowdown{};        ///< time of the method for the same samples, over the time of `default`
     Interval base_seconds{};    ///< time of `default` to this length
 };
 
-/// Error of a run at a time, on straight lines of its logarithm over that of the time between checkpoints; after the last
+/// Error of a run at a time, on straight lines of its logarithm over the logarithm of time between checkpoints; after the last
 /// one on a line of slope -1. NaN before the first one.
 double error_at_time(const GainRun& run, std::size_t error, double seconds);
 

@@ -24,7 +24,7 @@ struct GainResult {
 
 void print_gain_header();
 /// Rows by method and length: "error" of `default`, with its seconds; gains at equal "samples", with the method's time over
-/// that of `default`; gains at equal "time". With the share of dark paths of the longest run.
+/// the time of `default`; gains at equal "time". With the share of dark paths of the longest run.
 void print_gains(const GainResult& result);
 
 inline constexpr const char* kGainSchema = "pathlight.gains/1";

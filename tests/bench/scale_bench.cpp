@@ -1,6 +1,6 @@
 // Large models: the time to open, build and trace them, next to Embree in the same run.
 // Usage: scale_bench [THREADS [SCENE...]]. Without scenes: balls of ten thousand, a hundred thousand and a million
-// triangles. Passes of all ways to trace alternate, and ratios are those of neighbors, because other work on the machine
+// triangles. Passes of all ways to trace alternate, and ratios are of neighbors, because other work on the machine
 // comes and goes.
 #include <cstdio>
 #include <cstdlib>

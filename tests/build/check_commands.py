@@ -16,7 +16,7 @@ ROOT = Path(__file__).resolve().parents[2]
 PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").glob("*.md"))]
 SUBCOMMANDS = ("view", "render", "replay", "info", "convert", "devices", "inspect", "trace", "compare", "reference", "bench", "report",
                "selftest", "help")
-# Values in place of those of a page, and options that a subcommand has in addition where the page names none.
+# Values in place of the values of a page, and options that a subcommand has in addition where the page names none.
 SMALL = {"--size": "48x48", "--spp": "2", "--time-limit": "0.05", "--pixel": "12,24"}
 ADDED = {"render": ["--size", "--spp"], "inspect": ["--size", "--spp"], "reference": ["--size", "--spp"], "view": ["--size"],
          "trace": ["--size"], "bench": ["--size", "--time-limit"]}

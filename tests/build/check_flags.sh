@@ -31,7 +31,7 @@ expect accepted "$options" -O2 -ffinite-math-only
 expect accepted "$options" -ffp-contract=fast
 expect 'denormal numbers are flushed' "$options" -ffast-math
 
-# The flags of the project undo those of the caller.
+# The flags of the project undo the flags of the caller.
 mkdir "$work/cmake"
 cp "$root/cmake/Arithmetic.cmake" "$work/cmake"
 sed 's/-fno-fast-math//' "$options" >"$work/cmake/Options.cmake"

@@ -109,7 +109,7 @@ stb_*:             core/io
 kernel_headers=' cstdint cmath concepts type_traits atomic limits bit cstring string_view utility '
 
 # Where kernels may use double: sums over samples, the edge functions that come out as zero in float, which the watertight
-# triangle test has to decide exactly, and the planes of triangles, which kernels make for those of instances alone.
+# triangle test has to decide exactly, and the planes of triangles, which kernels make for triangles of instances alone.
 double_allowed='core/kernel/film core/kernel/geometry/triangle.h core/kernel/scene/triangle_plane.h core/kernel/scene/instances.h'
 
 # within PATH FOLDER...: is PATH one of the folders or files, or below one?

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # check_size.sh NM SIZE PROGRAM TABLE: the kernels of pictures that a build compiles for the CPU and the bytes of machine code in the program may
-# each grow by at most a fifth over those of TABLE: they are the time of a build, which no test can measure on a busy machine. Prints
+# each grow by at most a fifth over the values of TABLE: they are the time of a build, which no test can measure on a busy machine. Prints
 # what it found; exits 1 if there is more.
 set -euo pipefail
 nm=$1 size=$2 program=$3 table=$4

@@ -2,7 +2,7 @@
 # check_types.sh ROOT: has every type of the program a name of its own? Two types of one qualified name in two files are one
 # type to the linker, which keeps the functions of either for both and says nothing. Prints each such name with its places,
 # exits 1 if any.
-# Types of unnamed namespaces belong to their files, and may repeat each other's names, but not that of a type of the
+# Types of unnamed namespaces belong to their files, and may repeat each other's names, but not the name of a type of the
 # namespace around them: which of both is meant would depend on the headers that a file includes.
 # Headers that are compiled once per instruction set define everything in an unnamed namespace: of a function or class of the whole
 # program the linker would keep the copy for any of the sets.

@@ -3,7 +3,7 @@
 #   - no contraction: not one fused multiply-add, so that a hit is the same on every back end; the box tests, which are only
 #     bounds, have theirs by the rounding down that no contraction has, twice as many as a traversal has double operations
 #   - no float is summed by atomics, whose order is another in each run
-#   - no exponential or logarithm of the device in kernels that trace paths: its bits are not those of the host
+#   - no exponential or logarithm of the device in kernels that trace paths: its bits differ from the host's
 #   - double arithmetic only in the exact edge test of triangles, once per ray that is traced and traversal (small scenes have one of
 #     their own)
 #   - stacks of the kernels that trace paths of at most 1024 bytes, 512 without lobes and images
@@ -12,7 +12,7 @@
 #   - registers, stack and spills of every kernel as in kernels.sm_90.txt, and the counts of instructions in its machine code
 #     as in machine_code.sm_90.txt, if nvcc is the version named there; --write writes these files anew
 # quick: only the kernels that compile quickly, for every push; machine: the machine code of these alone. Machine code needs a
-# disassembler: $PL_NVDISASM, nvdisasm beside nvcc or on the path, or that of get_disassembler.sh. Without one, machine exits with
+# disassembler: $PL_NVDISASM, nvdisasm beside nvcc or on the path, or the one of get_disassembler.sh. Without one, machine exits with
 # 77, and the other modes say that they leave it out.
 set -euo pipefail
 nvcc=$1
@@ -107,8 +107,8 @@ registers() {
             printf "%-19s %-14s %-16s %9d %6d %6d\n", file, name, set, registers, stack, spills
         }' "$work/$1.log"
 }
-# machine_code FILE: kernel, its set or step, and how many instructions it has of some kinds: loads by bits (ld16: 16 or fewer) but for
-# those of the stack, of these the generic ones, which look up their address space; loads and stores of the stack; votes, shuffles,
+# machine_code FILE: kernel, its set or step, and how many instructions it has of some kinds: loads by bits (ld16: 16 or fewer) except
+# loads of the stack, of these the generic ones, which look up their address space; loads and stores of the stack; votes, shuffles,
 # matches of lanes; atomics with and without a result
 machine_code() {
     "$disassembler" -c "$work/$1.cubin" | awk -v file="$1" -v kernel_names="$kernel_names" -v step_names="$step_names" "$name_functions"'
@@ -145,7 +145,7 @@ machine_code() {
         END { finish() }'
 }
 
-# compare TABLE FUNCTION TITLE: the rows of FUNCTION for all files against those of TABLE; --write replaces it
+# compare TABLE FUNCTION TITLE: the rows of FUNCTION for all files against the rows of TABLE; --write replaces it
 compare() {
     {
         echo "# nvcc $("$nvcc" --version | sed -n 's/.*release \([0-9.]*\),.*/\1/p'), sm_90. Made by check_device_code.sh --write"

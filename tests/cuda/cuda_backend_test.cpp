@@ -1,4 +1,4 @@
-// The whole CUDA back end, run on the host: films, tables and counters are bit-identical to those of the CPU back
+// The whole CUDA back end, run on the host: films, tables and counters have the bits of the CPU back
 // end, since both run the same steps with the same random numbers. Rounding may differ on a device: see tests/parity.
 #include "cuda/cuda_backend.h"
 

@@ -27,7 +27,7 @@ std::vector<std::uint32_t> warps_of(std::uint32_t lanes, std::uint32_t count) {
     return warps;
 }
 
-/// Most items of a warp among those of a line.
+/// Most items of a warp among the items of a line.
 std::uint32_t most_of_a_warp(const std::vector<std::uint32_t>& warps, std::uint32_t length, auto&& item_of) {
     std::vector<std::uint32_t> counts(warps.size());
     for (std::uint32_t i = 0; i < length; ++i) ++counts[warps[item_of(i)]];

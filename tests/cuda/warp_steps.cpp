@@ -1,6 +1,6 @@
 // warp_steps [SCENE...]: the steps of warps that trace rays of adjacent paths, by each traversal of the device. A warp takes a step
-// if any of its lanes does; those of the others are lost. Runs the traversals themselves, on the host, a lane at a time: the counts
-// are those of a device whose lanes meet at the end of every step. Table of docs/cuda.md. `ballN` is the ball with N rows of
+// if any of its lanes does; the others wait. Runs the traversals themselves, on the host, a lane at a time: the counts
+// are as on a device whose lanes meet at the end of every step. Table of docs/cuda.md. `ballN` is the ball with N rows of
 // tests/support/scenes/bumpy_ball.h.
 #include <algorithm>
 #include <cstdio>
@@ -64,7 +64,7 @@ struct Lane {
 
 std::vector<Lane> lanes_of(const std::vector<Ray>& rays) { return {rays.begin(), rays.end()}; }
 
-/// The steps of traverse() of a hierarchy, in its order: those of a lane that visits each leaf before it goes on. In each a lane
+/// The steps of traverse() of a hierarchy, in its order: a lane visits each leaf before it goes on. In each a lane
 /// either meets a pair of nodes, step(0), or the triangles of a leaf, step(triangles).
 template <class Step>
 void walk_plain(const BvhView& bvh, Lane& lane, Step&& step) {

@@ -5,7 +5,7 @@ Usage: check_effect_time.py PROGRAM PROGRAM_WITHOUT [PAIRS]
 
 Both render the Cornell box with every method, one thread, and the same bits. A pair is a fresh process of each kind. They render
 many pictures, each in other memory, and take turns pass by pass, all in random order: who follows whom changes what is in the caches.
-All stay on one processor, because those of a shared machine are not equally fast, and each changes its speed from moment to moment: a
+All stay on one processor, because the processors of a shared machine are not equally fast, and each changes its speed from moment to moment: a
 pass takes 3.1 or 4.1 ms, now here, now there. What counts is the ratio of the processor times of their median passes, its mean over
 the middle half of the pictures: the others met such a change. Beside each pair runs a second process of PROGRAM, and one with the
 kernel that can do every effect:

@@ -26,7 +26,7 @@ inline constexpr auto kAll = SpecList{
 
 }  // namespace cosine_lobe_arrays
 
-/// Density relative to that of cosine sampling. `local` in the frame of the volume's normal.
+/// Density relative to the density of cosine sampling. `local` in the frame of the volume's normal.
 inline float relative_density(const CosineLobeField& field, std::uint32_t volume, Vec3f local) {
     const Vec3f wi = field.frame(static_cast<std::int32_t>(volume)).to_world(local);
     return relative_to_cosine(field.lobe_pdf_sa(volume, wi), local);

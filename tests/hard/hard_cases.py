@@ -2,7 +2,7 @@
 """The table of hard cases, docs/hard-cases.md, made of tests/hard/catalogue.txt, the tests' sources and their measurements.
 
 hard_cases.py --check            fails if a case is missing, names a test that does not exist, or the table is another one
-hard_cases.py --write [BUILD]..  writes the table; margins and seconds are those in BUILD/margins, or else those of the table
+hard_cases.py --write [BUILD]..  writes the table; margins and seconds are from BUILD/margins, or else from the table
 """
 import pathlib
 import re

@@ -5,7 +5,7 @@ Usage: check_scaling.py PROGRAM MPIRUN
 
 Its inputs are the --stats of one process. A prediction is a pair of bounds: exact but for pixels that move by the times of
 shares, of which the model knows the most, and for lists of training samples, known to a factor (FACTOR_OF_SAMPLES). The scene's
-own messages are those of a job of one pass and two ranks without its prediction.
+own messages are the messages of a job of one pass and two ranks without its prediction.
 """
 import json
 import os

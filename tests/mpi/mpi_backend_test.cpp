@@ -1,4 +1,4 @@
-// Sessions over several ranks: films, tables and counters are those of one rank, to the bit.
+// Sessions over several ranks: films, tables and counters have the bits of one rank.
 #include "mpi/mpi_backend.h"
 
 #include "core/base/error.h"

@@ -157,7 +157,7 @@ inline Decision check_furnace_cells() {
     return {cells > 100 ? Verdict::Pass : Verdict::Inconclusive, reason};
 }
 
-/// With light samples, the learned irradiance of scattered directions and that of light samples are together e/(1-rho) = 1 in
+/// With light samples, the irradiance learned from scattered directions and from light samples is together e/(1-rho) = 1 in
 /// every volume that paths meet often.
 inline Decision judge_irradiance(SmallField field) {
     float worst = 0.0f;

@@ -169,7 +169,7 @@ def parts(results):
 
 
 def share_of_ceiling(results, kernel, ceiling):
-    """Bytes moved over those of a copy in the same time; for kernels that trace, issue slots for each segment."""
+    """Bytes moved over the bytes of a copy in the same time; for kernels that trace, issue slots for each segment."""
     seconds = float(kernel["ms"]) * 1e-3
     if seconds == 0.0 or ceiling is None:
         return MISSING

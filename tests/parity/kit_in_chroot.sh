@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # kit_in_chroot.sh KIT.tar.xz [SUITE [MIRROR]]: unpacks a kit in a bare system of another distribution, by default noble, Ubuntu 24.04,
 # and runs it there: all libraries are found, CUDA says that there is no device, and stage a passes by the stand-in. Needs root,
-# debootstrap and the network; MIRROR is by default that of debootstrap for the suite. The system stays in ${TMPDIR:-/tmp}/kit-SUITE
+# debootstrap and the network; MIRROR is by default debootstrap's for the suite. The system stays in ${TMPDIR:-/tmp}/kit-SUITE
 # for the next run. Exit code: 0 as expected, 1 not, 4 the system could not be made.
 set -euo pipefail
 kit=$(realpath "$1") suite=${2-noble} mirror=${3-}

@@ -1,4 +1,4 @@
-// Which work is timed, and by which name; the times themselves are those of the stand-in.
+// Which work is timed, and by which name; the times themselves are of the stand-in.
 #include "tests/parity/launch_timer.h"
 
 #include "cuda/cuda_backend.h"

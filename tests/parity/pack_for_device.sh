@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # pack_for_device.sh [--build FOLDER] [--output FILE] [--no-variants]: makes build/kit.tar.xz, all that a machine with a GPU needs to run
 # run_on_device.sh, below 64 MiB: programs for sm_90 with line information, stripped; the same programs with the host stand-in; the
-# shared libraries of both, found by RPATH, without those of the C library and the compiler; scenes; scripts; variants of the
+# shared libraries of both, found by RPATH, except the C library's and the compiler's; scenes; scripts; variants of the
 # kernels (variants.txt). FOLDER is a build folder, made if it is not there; default build/kit. Needs nvcc and patchelf.
 # Exit code: 0 packed, 1 a build failed or the archive is too large, 2 usage, 4 no nvcc or patchelf.
 set -euo pipefail

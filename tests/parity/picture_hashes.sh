@@ -25,7 +25,7 @@ hash_picture() {
     fi
     rm -f "$out.pfm" "$out.log"
 }
-# The field's numbers are those of the picture's passes; seconds in its header are left out by hashing the inspection.
+# The field's numbers belong to the picture's passes; seconds in its header are left out by hashing the inspection.
 hash_field() {
     local name=$1 out=$work/${1//[ \/]/_}
     shift

@@ -43,7 +43,7 @@ play() {
         >"$1/output" 2>&1
     code=$?
 }
-# status KIT STAGE STEP: that of its summary line, its note after a colon
+# status KIT STAGE STEP: the status in its summary line, its note after a colon
 status() { awk -F '\t' -v step="$3" '$1 == step { print $2 ($4 == "" ? "" : ": " $4) }' "$1/results/stage-$2.tsv"; }
 # count KIT STAGE STATUS
 count() { awk -F '\t' -v status="$3" '$2 == status && $1 != "stage"' "$1/results/stage-$2.tsv" | wc -l; }

@@ -7,7 +7,7 @@
 #      memcheck and synccheck
 #   b  the whole benchmark with a million triangles, times by events, profiler counters, switches in the viewer, long parity
 #   c  variants of the kernels, initcheck, random settings for the rest of the time
-# FOLDER is an unpacked kit (pack_for_device.sh), by default that of this script; results go to ./results by default. --rehearsal:
+# FOLDER is an unpacked kit (pack_for_device.sh), by default the kit of this script; results go to ./results by default. --rehearsal:
 # without a GPU, by the programs FOLDER/standin/*_on_host, on small pictures.
 # Exit code: 0 all steps passed, 1 a step failed, 2 usage, 4 no device.
 set -uo pipefail

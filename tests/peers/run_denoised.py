@@ -7,7 +7,7 @@
 DIR gets a virtual environment with pyoidn from PyPI (Open Image Denoise 2 for the CPU), references, and the pictures, which are not rendered
 again if they are there. DIR/noisy and DIR/denoised are scored by `pathlight score`, which writes their tables; `pathlight report` makes
 their pages. Each picture is denoised with albedo and normals of 64 samples, which cost both methods the same and are not charged, and
-neither is the denoiser. Seconds are of processor time without those of `pathlight info`, which reads the scene: placing and learning are
+neither is the denoiser. Seconds are of processor time without the seconds of `pathlight info`, which reads the scene: placing and learning are
 charged. Exit code 77: pyoidn cannot be installed here.
 """
 import argparse

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Noise of pictures that were published with a scene, beside that of pathlight with as many samples and no light samples.
+"""Noise of pictures that were published with a scene, beside the noise of pathlight with as many samples and no light samples.
 
     run_published.py SCENE.xml PICTURE.exr ... --program PATHLIGHT --folder DIR [--spp 1023] [--max-depth 10] [--from-column 0]
 
 DIR gets a virtual environment with Mitsuba from PyPI, which reads the pictures, and pathlight's pictures of two seeds; those that are there
 already are not rendered again. The noise is a variance by the squared mean, in the mean over channels and pixels from a column on, whole and
-without the worst thousandth and hundredth. Pathlight's is half of the squared difference of two seeds; that of a published picture is taken
+without the worst thousandth and hundredth. Pathlight's is half of the squared difference of two seeds; the noise of a published picture is taken
 from its difference to the mean of pathlight's. A pixel's difference counts as far as it deviates from its four neighbors: the models of two
 renderers differ smoothly. Exit code 77: Mitsuba cannot be installed here.
 """

@@ -157,7 +157,7 @@ TEST_CASE("All targets, rates and rules of roulette agree on the Cornell box") {
 
 TEST_CASE("All methods agree on lights without extent") { check_agreement(cornell_with_delta_lights(), 0.12); }
 
-// Caustics are found by chance alone: with light samples, too, pictures are noisier than those of diffuse scenes.
+// Caustics are found by chance alone: with light samples, too, pictures are noisier than pictures of diffuse scenes.
 TEST_CASE("All methods agree on mirror and glass") { check_agreement("spheres", 0.2); }
 TEST_CASE("All methods agree on glass that absorbs") { check_agreement(cornell_with_stained_glass(), 0.2); }
 TEST_CASE("All methods agree on thin panes") { check_agreement(cornell_with_panes(), 0.2); }

@@ -154,7 +154,7 @@ TEST_CASE("Precomputation leaves to light samples what they bring") {
 }
 
 // Expected Sarsa of indirect light keeps the two parts of the irradiance apart: by scattered directions and by light samples.
-// 400 passes of 1024 paths, seed 1; the margins are those of the noisy targets below.
+// 400 passes of 1024 paths, seed 1; with the margins of the noisy targets below.
 TEST_CASE("Learned indirect light and light samples are together e/(1-rho) in every volume of the furnace") {
     const SceneDescription scene = furnace_scene(kEmission, kRho);
     Session session = make_session(scene, furnace_settings({MethodId::Reinforcement, true}, scene));

@@ -65,7 +65,7 @@ SceneDescription veiled_plane(float plane, float sheet, float opacity, bool has_
 
 }  // namespace
 
-// At every vertex emission and reflected radiance add up to 1: no sampling error but that of the cut after 64
+// At every vertex emission and reflected radiance add up to 1: no error but the cut after 64
 // vertices. A path brings 1 minus the product of the albedos it met.
 TEST_CASE("Painted rooms in equilibrium show 1 in every pixel of every path, through lattices and a lens too") {
     SceneDescription lens = latticed_furnace();
@@ -105,7 +105,7 @@ TEST_CASE("Painted rooms with partly opaque lattices show 1 by every method, wit
 
 // A sheet of opacity a and albedo r under an even sky of radiance 1 lets 1 - a through and reflects a r, from above and from below. Over a
 // plane of albedo p the light between both is (1 - a) / (1 - p a r) on its way down. S1 as above; the sky is both sampled as a light
-// and not, and the opacity is a number, or one times that of an image.
+// and not, and the opacity is a number, or a number times the opacity of an image.
 TEST_CASE("A partly opaque sheet over a plane under an even sky shows its closed form by every method") {
     constexpr float kOpacity = 0.4f, kSheet = 0.5f, kPlane = 0.8f;
     for (const bool has_image : {false, true}) {

@@ -103,7 +103,7 @@ void check_that_guiding_is_not_noisier(const std::string& name, Pictures picture
 }
 
 struct Gain {
-    double error;     ///< of default path tracing over that of the method
+    double error;     ///< of default path tracing over the error of the method
     double dark_map;  ///< paths without light, likewise; a map that does not learn while it renders leaves half to
                       ///< the BSDF
     double dark_learned;
@@ -131,7 +131,7 @@ void check_gain_on_the_door(Pictures picture, Gain least) {
 // 64 x 64 pixels, seed 1, 200 volumes of 64 cells. The Monte-Carlo target is the reference. Targets that use the table of the
 // next volume get its mean over all points that it serves, and over earlier passes: with so few volumes that is up to
 // 8 % more on these scenes. Where only indirect light is learned, most of a target comes from the light sample of the very
-// point, and the targets agree better, to 6.4 % here: a product of two magnitudes is not that of the product of colors.
+// point, and the targets agree better, to 6.4 % here: the product of two magnitudes is not the magnitude of the product of colors.
 TEST_CASE("All targets learn the same light in the Cornell box") {
     check_that_targets_agree(shipped_scene("cornell"), 32);
 }

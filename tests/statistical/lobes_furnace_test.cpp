@@ -1,4 +1,4 @@
-// Surfaces that absorb nothing under an even sky: whatever directions they scatter to, radiance is that of the sky. Glass is
+// Surfaces that absorb nothing under an even sky: whatever directions they scatter to, their radiance is the sky's. Glass is
 // invisible, pixel by pixel; rough surfaces are on the mean.
 #include "core/scene/surface_info.h"
 #include "tests/support/catch.hpp"

@@ -16,7 +16,7 @@ def require_valgrind():
 
 
 def count_instructions(command, text=""):
-    """By (file of source, function) the instructions that were executed there, without those of functions called from there. Files
+    """By (file of source, function) the instructions that were executed there, without the instructions of functions called from there. Files
     are known where the program has line numbers. `text` is the program's input."""
     with tempfile.TemporaryDirectory() as folder:
         out = Path(folder) / "callgrind.out"

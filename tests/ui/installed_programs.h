@@ -9,7 +9,7 @@
 
 namespace pl::test {
 
-/// While it exists, no other programs are found; their scripts find those of the machine.
+/// While it exists, no other programs are found; their scripts find the programs of the machine.
 struct InstalledPrograms {
     TemporaryFolder folder;
 

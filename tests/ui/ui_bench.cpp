@@ -89,7 +89,7 @@ void write_drags(const std::filesystem::path& path, int drags) {
 /// Frames that are measured between the marks of write_displays().
 constexpr int kDisplayFrames = 600;
 
-/// Everything that shows what is learned: discs beside the true light and curves over the passes, lobes of four volumes, those of 2000
+/// Everything that shows what is learned: discs beside the true light and curves over the passes, lobes of four volumes and of 2000
 /// volumes, paths of a pixel, and the past, which is played, so that discs and all lobes are made anew five times a second. Hidden: the
 /// same rendering without them. Both copy the command line at the first and at the last measured frame: the marks.
 void write_displays(const std::filesystem::path& path, bool shown) {

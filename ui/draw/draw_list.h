@@ -29,7 +29,7 @@ struct Rect {
 /// From the scene to the window: the exact inverse of generate_ray for a picture that fills `image`.
 class Projection {
 public:
-    /// `width` and `height` are those of the picture, not of `image`.
+    /// `width` and `height`: of the picture, not of `image`.
     Projection(const CameraDescription& camera, int width, int height, const Rect& image);
 
     struct Point {

@@ -65,7 +65,7 @@ float accuracy_height(float height, float em, const PanelChoice& choice, bool de
     return std::round(std::clamp(wanted, least, std::max(most, least)));
 }
 
-/// Splits `side`, whose height is that of tabs, border and accuracy panel.
+/// Splits `side`, whose height holds tabs, border and accuracy panel.
 void split_right_side(Layout& layout, const Rect& side, float em, const PanelChoice& choice, bool detail) {
     const float border = std::min(border_pixels(em), side.height);
     const float room = side.height - border;

@@ -78,8 +78,9 @@ inline constexpr std::size_t kMostFlowerTriangles = 60000;
 /// Most flowers of a field that are drawn, and so the least of n in "every n-th volume".
 inline constexpr std::size_t kMostFlowers = 2000;
 
-/// Flowers as lobes, each as long as the others at its own peak; colors are logarithmic in the density, from a quarter of that of
-/// cosine sampling to 40 times that. Those that face away, lie outside of the picture or are hidden by the scene cost no triangle.
+/// Flowers as lobes, each as long as the others at its own peak; colors are logarithmic in the density, from a quarter of
+/// the density of cosine sampling to 40 times it. Flowers that face away, lie outside of the picture or are hidden by the scene cost no
+/// triangle.
 ScreenMesh flower_mesh(const FlowerField& field, const SceneView& scene, const Projection& projection,
                        FlowerCounts& counts);
 

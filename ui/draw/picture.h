@@ -15,7 +15,7 @@ namespace pl::ui {
 
 // The tint by radiance volume in the colors of a value of the volumes, for times that are shown in place of the present.
 
-/// Entropy of the sampling probabilities of each volume, as a share of that of a uniform table: 1 is cosine sampling.
+/// Entropy of the sampling probabilities of each volume, as a share of the entropy of a uniform table: 1 is cosine sampling.
 std::vector<float> entropy_shares(const FieldKeyFrame& frame);
 
 /// Each pixel in map_color() of its volume's position; pixels of other volumes, or of none, stay as they are. `colors` [volume]: as

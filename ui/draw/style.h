@@ -26,7 +26,7 @@ inline ImU32 kMinorGrid = 0;
 /// Height of the font in pixels, the unit of all sizes.
 inline constexpr float kFontPixels = 16.0f;
 
-/// Height of large text over that of the font.
+/// Height of large text over the height of the font.
 inline constexpr float kLargeText = 1.4f;
 ImFont* large_font();
 

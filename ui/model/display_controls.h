@@ -91,8 +91,8 @@ struct LuminanceHistogram {
 LuminanceHistogram make_histogram(std::span<const Vec3f> pixels, std::size_t most = 1u << 16);
 
 /// The exposure in stops at which the mean logarithm of the luminance, without the darkest and the brightest twentieth of the
-/// pixels, is that of a gray of 0.18 [Reinhard et al. 2002, "Photographic Tone Reproduction for Digital Images", eq. 1, 2]. Empty
-/// for a black picture.
+/// pixels, equals the logarithm of a gray of 0.18. Empty for a black picture.
+/// [Reinhard et al. 2002, "Photographic Tone Reproduction for Digital Images", eq. 1, 2]
 std::optional<float> automatic_exposure(const LuminanceHistogram& histogram);
 
 /// The histogram of the picture in the window, and an exposure that follows it. Both look at values that were copied from the film.

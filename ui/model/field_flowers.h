@@ -79,8 +79,8 @@ public:
     bool is_current() const { return !is_shown_ || (!job_ && begun_ == wanted()); }
     /// Null before they are made.
     const FlowerField* flowers() const { return flowers_.get(); }
-    /// The triangles for a picture in `image`; made again only when field, scene, camera or window have changed: those of another
-    /// field in the background, with the field.
+    /// The triangles for a picture in `image`; made again only when field, scene, camera or window have changed. For
+    /// another field they are made in the background, with the field.
     std::shared_ptr<const ScreenMesh> mesh(const PublishedFrame& frame, const Rect& image);
     const FlowerCounts& counts() const { return meshes_[0].counts; }
     /// Number of times that the triangles were made.

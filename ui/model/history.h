@@ -21,7 +21,7 @@ struct Choices {
 class History {
 public:
     static constexpr std::size_t kMost = 100;
-    /// Changes of a number, a color or the camera within this time of the last one are one change, as those of one drag are.
+    /// Changes of a number, a color or the camera within this time of the last one are one change, as the changes of one drag are.
     static constexpr double kMergeSeconds = 0.5;
 
     /// Once per frame of the window, with its clock: notes what has changed. Another scene begins a new history. `is_dragging`: a

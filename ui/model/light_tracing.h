@@ -34,7 +34,7 @@ public:
     /// The light so far, compared with the densities of a moment ago; null before every group has paths, and without a volume.
     const LightReport* report() const { return report_.get(); }
     /// The figures over the passes that trained the field: of its key frames, all by the light so far, and of the newest report. Without
-    /// key frames those of past reports.
+    /// key frames, the figures of past reports.
     const std::vector<FigurePoint>& curve() const { return curve_; }
     /// Spent on paths and figures so far.
     double seconds() const { return seconds_; }

@@ -120,7 +120,7 @@ public:
     std::optional<std::size_t> selected() const;
     void select(std::size_t index) { selected_ = index; }
 
-    /// The light that colors stand for: that of all paths of both methods.
+    /// The light that colors stand for, over all paths of both methods.
     const ValueRange& range() const { return range_; }
     /// The paths as lines, as seen by a camera in this place; made again only when something has changed.
     const std::vector<PathPiece>& pieces(const PublishedFrame& frame);

@@ -32,7 +32,7 @@ public:
     void set_mixture(MixtureSettings mixture);
     void set_field(const FieldSettings& field);
     void set_size(int width, int height);
-    /// Continues from a saved field: its method and settings become those of the rendering.
+    /// Continues from a saved field: the rendering takes its method and settings.
     void adopt_field(const std::shared_ptr<LearnedField>& field);
 
     void set_limits(const SampleLimits& limits);

@@ -18,7 +18,7 @@ namespace pl::ui {
 
 class ViewerModel;
 
-/// The defaults are those of a first start.
+/// The defaults are the state of a first start.
 struct WindowMemory {
     std::optional<WindowPlace> place;
     float ui_scale = 0.0f;  ///< 0: by the screen
@@ -47,7 +47,7 @@ void write_memory(const WindowMemory& memory, Json& document);
 /// with the names of file and member.
 WindowMemory memory_in(const Json& document, const WindowMemory& first, const std::filesystem::path& path);
 
-/// The state of the window now; place and scale are those of `before`.
+/// The state of the window now; place and scale are taken from `before`.
 WindowMemory memory_of(const ViewerModel& model, const WindowMemory& before);
 
 /// The window as it was remembered, without place and scale.

@@ -16,7 +16,7 @@ void draw_status_bar(ViewerModel& model, const Layout& layout);
 /// The borders between panels and picture: dragged they change sizes, their arrows fold the panels.
 void draw_borders(ViewerModel& model, const Layout& layout);
 
-/// Whether every setting is shown, or only those of a first look.
+/// Whether every setting is shown, or only the settings of a first look.
 inline bool is_research(const ViewerModel& model) { return model.window().layout == WindowLayout::Research; }
 /// A part of the settings: the learned field, and how it learns.
 void draw_learning_section(ViewerModel& model);

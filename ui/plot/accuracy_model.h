@@ -17,7 +17,7 @@ class AccuracyModel {
 public:
     AccuracyModel() { recompute(); }
 
-    /// Takes the newest runs. `picture` is that of the window (RunLabel::picture), `floor` the noise of its reference as
+    /// Takes the newest runs. `picture`: of the window (RunLabel::picture), `floor` the noise of its reference as
     /// relMSE, 0 without one.
     void update(std::shared_ptr<const LiveRunSet> runs, std::uint64_t picture, double floor,
                 const RunBase& base = {});

@@ -23,7 +23,7 @@ enum class IntervalSource {
 
 struct RunGain {
     Interval
-        net;  ///< time of the baseline over that of the run, to the same error; no bounds with IntervalSource::None
+        net;  ///< time of the baseline over the time of the run, to the same error; no bounds with IntervalSource::None
     IntervalSource source = IntervalSource::None;
     std::string sentence;  ///< the factors behind it, see headline()
 };
@@ -75,7 +75,7 @@ struct TurnsHeadline {
     std::string detail;           ///< the number behind it with its interval; empty as long as nothing is measured
     const RunRow* row = nullptr;  ///< of the table: whose number it is
 };
-/// `halves`: the left and the right run. Their base is that of the table.
+/// `halves`: the left and the right run. They have the base of the table.
 TurnsHeadline turns_headline(const RunTable& table, const std::array<RunLabel, 2>& halves);
 
 /// The newest row of the method that learns, with or without light samples, if it has a gain with an interval and began with nothing

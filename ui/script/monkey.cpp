@@ -14,7 +14,7 @@ using Kind = ScriptCommand::Kind;
 constexpr std::array kButtons{SDL_BUTTON_LEFT, SDL_BUTTON_LEFT, SDL_BUTTON_LEFT, SDL_BUTTON_RIGHT, SDL_BUTTON_MIDDLE};
 constexpr std::array kHeldKeys{SDL_SCANCODE_W, SDL_SCANCODE_S, SDL_SCANCODE_A,      SDL_SCANCODE_D,
                                SDL_SCANCODE_E, SDL_SCANCODE_Q, SDL_SCANCODE_LSHIFT, SDL_SCANCODE_LALT};
-/// Keys of text fields and lists, besides those of the table of actions.
+/// Keys of text fields and lists, besides the keys of the table of actions.
 constexpr std::array kOtherKeys{SDL_SCANCODE_RETURN, SDL_SCANCODE_BACKSPACE, SDL_SCANCODE_DELETE, SDL_SCANCODE_UP,
                                 SDL_SCANCODE_DOWN,   SDL_SCANCODE_LEFT,      SDL_SCANCODE_RIGHT,  SDL_SCANCODE_END,
                                 SDL_SCANCODE_PAGEUP, SDL_SCANCODE_PAGEDOWN};

@@ -33,7 +33,7 @@ public:
         double cpu;       ///< processor time of the window's thread
         double interval;  ///< since the previous frame; negative after a rest of the window
     };
-    /// A frame was shown; `generation` is that of its picture.
+    /// A frame was shown; `generation`: of its picture.
     void frame_shown(double seconds, const FrameTimes& times, std::uint64_t generation);
 
     /// The percentiles, also as the last line of the file.

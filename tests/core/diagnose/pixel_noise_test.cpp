@@ -149,7 +149,7 @@ TEST_CASE("the variance of a floor under a lamp, by BSDF sampling, is that of a 
 }
 
 // With light samples, both techniques are independent of each other given the floor's point, so that their shares are their own variances
-// over the sum. Those are estimated from other paths here, those of the picture's passes. 16384 paths each, seed 1.
+// over the sum. The variances are estimated here from other paths, of the picture's passes. 16384 paths each, seed 1.
 TEST_CASE("with light samples the noise of a floor under a lamp is that of both techniques, each by itself") {
     const LampOverFloor lamp = lamp_above(0.1f, 0.05f);
     const Session session = lit_floor(lamp.scene, true);

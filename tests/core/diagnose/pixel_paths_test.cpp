@@ -1,4 +1,4 @@
-// The paths of a pixel: those of the picture, the brightest first, and beside each the one by the same random numbers.
+// The paths of a pixel: the picture's, the brightest first, and beside each the path of the other method by the same random numbers.
 #include "core/diagnose/pixel_paths.h"
 
 #include <algorithm>

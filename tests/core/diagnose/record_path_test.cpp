@@ -45,7 +45,7 @@ std::vector<Vec3f> radiances(const std::vector<PathRecord>& paths) {
     return radiance;
 }
 
-/// The samples of the session's next pass alone, without those of further camera rays.
+/// The samples of the session's next pass alone, without the samples of further camera rays.
 std::vector<Vec3f> render_alone(Session& session) {
     const FilmSlot slot = slot_of(session);
     const RenderSettings& settings = session.settings();

@@ -51,7 +51,7 @@ bool same_sites(const HostVolumes& a, const HostVolumes& b) {
 
 }  // namespace
 
-// The points are those of a camera a step to the side: no path of the placement.
+// The points are seen by a camera a step to the side: no path of the placement.
 TEST_CASE("Where sides outnumber volumes, volumes are placed where paths arrive") {
     const HostScene scene = pack_scene(ball_over_floor());
     const Camera camera = camera_at(0.0f);

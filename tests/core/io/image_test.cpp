@@ -188,7 +188,7 @@ TEST_CASE("EXR files of half floats keep three digits, limit radiance that is to
 }
 
 TEST_CASE("image: a failure of the library without a reason is unknown") {
-    // Reasons are those of a thread: a new one has none yet.
+    // Reasons belong to a thread: a new one has none yet.
     std::string reason;
     std::thread([&] { reason = stb_failure(); }).join();
     CHECK(reason == "unknown");

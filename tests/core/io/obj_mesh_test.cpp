@@ -41,7 +41,7 @@ Reading read(const std::string& text, int threads = 1, std::size_t chunk_bytes =
 
 const glm::dvec3 kFar(391240.0, -0.125, 1e9);
 
-/// Checks the reading by several threads and sizes of chunks; returns that of the whole text.
+/// Checks the reading by several threads and sizes of chunks; returns the reading of the whole text.
 Reading check_same(const std::string& text) {
     Reading whole = read(text);
     const Reading moved = read(text, 1, kObjChunk, kFar);

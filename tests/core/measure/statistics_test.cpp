@@ -18,7 +18,7 @@ namespace {
 constexpr int kExperiments = 1000;
 constexpr int kRuns = 10;
 
-/// A squared error like those of runs: a sum of few squares, so skewed, with the given geometric mean.
+/// A squared error as runs have: a sum of few squares, so skewed, with the given geometric mean.
 class SkewedErrors {
 public:
     SkewedErrors(double geometric_mean, int squares, std::uint64_t seed)

@@ -1,4 +1,4 @@
-// Cameras of parts of pictures: their rays are those of the whole.
+// Cameras of parts of pictures: they have the rays of the whole.
 #include "core/scene/crop.h"
 
 #include "core/scene/pack_scene.h"
@@ -8,7 +8,7 @@ using namespace pl;
 
 namespace {
 
-/// Largest difference between directions through the pixels' corners of a window, by its camera and by that of the whole.
+/// Largest difference between directions through the pixels' corners of a window, by its camera and by the camera of the whole.
 float difference(const CameraDescription& whole, int width, int height, const CropWindow& window) {
     const Camera all = make_camera(whole, width, height);
     const auto columns = static_cast<int>(window.width);

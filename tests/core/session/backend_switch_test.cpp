@@ -28,7 +28,7 @@ Session session_on(std::shared_ptr<RenderBackend> backend, const SceneDescriptio
 
 using Failure = FailingBackend::Failure;
 
-/// The session's state is that of a new session after this many passes with these settings.
+/// The session has the state of a new session after this many passes with these settings.
 void check_like_fresh(Session& session, const SceneDescription& scene, const RenderSettings& settings,
                       std::uint32_t passes) {
     Session fresh = session_on(cpu_backend(2), scene, settings);

@@ -49,7 +49,7 @@ bool all_tables_kept(const Contents& before, const Contents& after) {
                               [](const State& a, const State& b) { return same_bits(a.tables, b.tables); });
 }
 
-/// The tables of a learned field's method are those of the field, and the other methods have no training samples.
+/// The method of a learned field has the tables of the field, and the other methods have no training samples.
 bool only_has(const Contents& contents, const LearnedField& field) {
     return std::ranges::all_of(all_methods(), [&](const MethodInfo& method) {
         const HostTables& tables = contents.methods[static_cast<std::size_t>(method.id)].tables;
@@ -58,7 +58,7 @@ bool only_has(const Contents& contents, const LearnedField& field) {
     });
 }
 
-/// A field of another size than that of `settings`, learned by another session of the same scene.
+/// A field of another size than `settings` give, learned by another session of the same scene.
 std::shared_ptr<const LearnedField> field_from_elsewhere(const SceneDescription& scene, RenderSettings settings) {
     settings.method = MethodId::Reinforcement;
     settings.seed = 11;
@@ -118,7 +118,7 @@ SceneDescription edited(SceneDescription scene, const SessionEdit& edit) {
     return scene;
 }
 
-/// The settings of a session after an edit, but for its method; those of commands and scenes stay.
+/// The settings of a session after an edit, but for its method; settings of commands and scenes stay.
 RenderSettings edited(RenderSettings settings, const SessionEdit& edit) {
     if (const auto* camera = std::get_if<EditCamera>(&edit)) settings.camera = camera->camera;
     if (const auto* size = std::get_if<EditSize>(&edit)) {

@@ -1,4 +1,4 @@
-// The choice between guided passes and those of the baseline, from measurements made up here.
+// The choice between passes of the method and of the baseline, from measurements made up here.
 #include "core/session/guiding_choice.h"
 
 #include <vector>

@@ -1,4 +1,4 @@
-// Instances in whole pictures: those of a scene with copies in their place.
+// Instances in whole pictures, which equal pictures of copies in their place.
 #include "core/scene/needed_effects.h"
 #include "core/scene/pack_scene.h"
 #include "tests/support/catch.hpp"

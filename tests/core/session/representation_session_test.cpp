@@ -48,7 +48,7 @@ LargeArray<float> mean_radiance_of(const Session& session) {
                       session.export_field(MethodId::Reinforcement).field);
 }
 
-/// Of the arrays beside the placement: those that volumes own, and those of a network; a tree has a few nodes.
+/// Of the arrays beside the placement: arrays that volumes own, and arrays of a network; a tree has a few nodes.
 std::size_t fewest_bytes(Representation representation, std::size_t volumes) {
     std::size_t bytes = 0;
     with_model(representation, [&]<class Model>() {

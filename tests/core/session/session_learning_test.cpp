@@ -75,7 +75,7 @@ TEST_CASE("a field that learns from six passes keeps their bits for all that fol
     CHECK(status->records == six.field_status(kLearner)->records);
     CHECK_FALSE(six.field_status(kLearner)->is_frozen);
 
-    // The same path numbers as those of a field that goes on, and so other pictures only by what was learned.
+    // The same path numbers as of a field that goes on, and so other pictures only by what was learned.
     Session endless = learner();
     render_passes(endless, 37);
     CHECK(frozen.passes(slot_of(frozen)) == 37);

@@ -79,7 +79,7 @@ TEST_CASE("A session that is taken out at any moment goes on elsewhere with the 
     }
 }
 
-// With light samples the choice between guided passes and those of the baseline is a part of the state, in large pictures its
+// With light samples the choice between passes of the method and of the baseline is a part of the state, in large pictures its
 // warm-up, too.
 TEST_CASE("What is known of guiding is continued to the bit") {
     const SceneDescription scene = shipped_scene("door");

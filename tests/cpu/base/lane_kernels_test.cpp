@@ -1,4 +1,4 @@
-// Random numbers drawn in SIMD lanes are bit-identical to those of the scalar code.
+// Random numbers drawn in SIMD lanes have the bits of the scalar code.
 #include <cstring>
 
 #include "core/kernel/methods/default.h"

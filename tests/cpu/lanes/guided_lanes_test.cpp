@@ -1,4 +1,4 @@
-// Guided directions sampled in SIMD lanes are bit-identical to those of the scalar code.
+// Guided directions sampled in SIMD lanes have the bits of the scalar code.
 
 #include "cpu/paths/direction_block.h"
 #include "tests/cpu/put_vertex.h"
@@ -25,7 +25,7 @@ float any_number(Uniforms& random) {
     return random.below(8) == 0 ? kSpecial[random.below(6)] : random.next();
 }
 
-/// Fills the groups once and compares their directions with those of the scalar code.
+/// Fills the groups once and compares their directions with the directions of the scalar code.
 void check_round(const LaneKernels& kernels, const PrecomputedMethod& method, const std::vector<Vec3f>& normals,
                  Uniforms& random) {
     constexpr std::uint32_t kGroups = 3;

@@ -1,4 +1,4 @@
-// Lights that vectors of vertices choose by a light tree are those of the scalar code, bit for bit, by every instruction set.
+// Vectors of vertices choose the lights of the scalar code by a light tree, bit for bit, by every instruction set.
 #include <algorithm>
 #include <memory>
 
@@ -15,7 +15,7 @@ namespace {
 
 constexpr FeatureSet kMany = kRoomEffects.with(Feature::ManyLights).with(Feature::Rough);
 
-/// Default path tracing with a learned choice of lights: that of a volume, or none.
+/// Default path tracing with a learned choice of lights, of a volume, or none.
 struct ChoosesLights : DefaultMethod {
     static constexpr bool kLearnsLights = true;
 

@@ -1,4 +1,4 @@
-// The steps of paths that stay in SIMD lanes are those of the scalar code, bit for bit, by every instruction set.
+// Paths that stay in SIMD lanes take the steps of the scalar code, bit for bit, by every instruction set.
 #include "cpu/paths/vertices.h"
 
 #include <cstring>

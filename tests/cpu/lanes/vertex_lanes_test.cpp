@@ -1,4 +1,4 @@
-// Paths that are scattered in SIMD lanes go where those of the scalar code go, bit for bit, by every instruction set.
+// Paths that are scattered in SIMD lanes go where paths of the scalar code go, bit for bit, by every instruction set.
 
 #include "core/kernel/methods/default.h"
 #include "cpu/base/lane_kernels.h"

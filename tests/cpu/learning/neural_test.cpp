@@ -182,7 +182,7 @@ TEST_CASE("The slopes of a network are those of its loss by finite differences")
     CHECK(felt > 3);
 }
 
-// The loss here is that of the mixture that is sampled, without the algebra of the slopes. Central differences in float densities.
+// The loss here is of the mixture that is sampled, without the algebra of the slopes. Central differences in float densities.
 TEST_CASE("The slopes of a mixture are those of its loss by finite differences") {
     const RandomLight random;
     for (std::uint64_t seed = 1; seed <= 4; ++seed) {
@@ -310,7 +310,7 @@ TEST_CASE("A table that is its uniform floor alone teaches nothing") {
     CHECK(neural.field.weights == TestNeural().field.weights);
 }
 
-// A volume without light must not pull at the weights of the others: the network of one lit volume is that of all with the rest dark.
+// A volume without light must not pull at the weights of the others: a lit volume teaches the same network alone and among dark ones.
 TEST_CASE("Dark volumes have no slope") {
     const auto network_after = [](bool visits_others) {
         TestNeural neural;

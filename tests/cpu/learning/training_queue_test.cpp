@@ -1,4 +1,4 @@
-// Pending sums of training samples from several threads equal those of a single thread.
+// Pending sums of training samples from several threads equal the sums of a single thread.
 #include "cpu/base/parallel_for.h"
 #include "cpu/learning/training_queue.h"
 #include "tests/support/catch.hpp"

@@ -1,4 +1,4 @@
-// Lights that are sampled in SIMD lanes are those of the scalar code, bit for bit, by every instruction set.
+// SIMD lanes sample the lights of the scalar code, bit for bit, by every instruction set.
 #include "cpu/paths/light_block.h"
 
 #include <memory>

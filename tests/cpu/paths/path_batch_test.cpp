@@ -1,4 +1,4 @@
-// Films, tables and counters of batches of paths are bit-identical to those of a loop over single paths. The loop
+// Films, tables and counters of batches of paths have the bits of a loop over single paths. The loop
 // uses trace_path of the kernel with the scalar BVH, so this also compares intersectors and random numbers.
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-// The scene's two-wide hierarchy as a batch intersector: traverses it ray by ray. A peer of those of the back end.
+// The scene's two-wide hierarchy as a batch intersector: traverses it ray by ray. A peer of the intersectors of the back end.
 #pragma once
 
 #include "core/kernel/geometry/intersector.h"

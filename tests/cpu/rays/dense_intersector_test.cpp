@@ -1,4 +1,4 @@
-// Hits of the dense intersector, with every instruction set, and of the BVH are bit-identical to those of the scalar
+// Hits of the dense intersector, with every instruction set, and of the BVH have the bits of the scalar
 // test on all triangles.
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-// Rays through holes: hits of batches are correct, and bit-identical to those of single rays for every intersector.
+// Rays through holes: hits of batches are correct, with the bits of single rays, for every intersector.
 #include "cpu/rays/solid_hits.h"
 
 #include "core/scene/pack_scene.h"

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # check_layout.sh PRINT_LAYOUT NVCC ROOT: do the C++ compiler and the device compiler agree on every size, alignment and offset of
-# what crosses to the device? PRINT_LAYOUT prints those of the former, the PTX of device_layout.cu has those of the latter.
+# what crosses to the device? PRINT_LAYOUT prints the numbers of the former, the PTX of device_layout.cu has the numbers of the latter.
 set -euo pipefail
 print_layout=$1 nvcc=$2 root=$3
 work=$(mktemp -d)
@@ -20,7 +20,7 @@ awk '
     }' "$work/device.ptx" >"$work/device" || { tail -1 "$work/device"; exit 1; }
 "$print_layout" >"$work/host"
 
-# same FILE: whether the numbers of FILE, those of the C++ compiler, are those of the device
+# same FILE: whether the numbers of FILE, by the C++ compiler, equal the numbers of the device
 same() { diff <(cut -f1 "$1") "$work/device" >/dev/null; }
 if ! same "$work/host"; then
     echo "FAILED: layouts differ. C++ compiler, device compiler, what:"

@@ -15,7 +15,7 @@ struct WalkResult {
 
 /// How hard the directions of a walk are.
 enum class WalkStyle {
-    Diffuse,      ///< cosine-distributed directions, like those of paths
+    Diffuse,      ///< cosine-distributed directions, as paths have
     Adversarial,  ///< every second vertex is moved next to an edge or a corner, every fourth direction grazes
 };
 

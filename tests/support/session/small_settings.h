@@ -29,7 +29,7 @@ inline Session used_session(const SceneDescription& scene, const RenderSettings&
     return session;
 }
 
-/// Settings by which guided paths are those of the baseline, at a higher cost, so that guiding is given up: all directions by
+/// Settings by which guided paths equal paths of the baseline, at a higher cost, so that guiding is given up: all directions by
 /// the BSDF, roulette by the albedo. Smaller pictures have too few paths to see that their variance is the same.
 inline RenderSettings settings_without_gain(const SceneDescription& scene, MethodId method) {
     RenderSettings settings = small_settings(scene, {method, true}, 80, 80);

@@ -23,7 +23,7 @@ class LobeSurfaceOf {
 public:
     using Grain = typename Bsdf<F>::Grain;
 
-    /// `albedo` is that of the guided lobes, see pack_scene().
+    /// `albedo`: of the guided lobes, see pack_scene().
     explicit LobeSurfaceOf(const SurfaceLobes& lobes, Vec3f albedo = Vec3f{0.0f}, const Grain& grain = {})
         : lobes_(lobes), albedo_(albedo), grain_(grain) {
         if (const auto tables = surface_info(lobes.kind).tables) table_ = tables(lobes.ior);

@@ -96,7 +96,7 @@ TEST_CASE("Sides: a newer frame of the run in progress is shown, with the second
     show_newer(side, frame);
     CHECK(side.frame == frame);
     CHECK(side.label == "Reinforcement CPU  130 spp  26 s");
-    // Coarse ones, and those of others, are not.
+    // Coarse sides, and sides of other pictures, are not.
     const auto refused = [&](auto change) {
         CompareSide other = *resolve_sides(input_of(runs), {}).a;
         auto changed = std::make_shared<PublishedFrame>(*frame);

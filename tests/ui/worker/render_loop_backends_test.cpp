@@ -162,7 +162,7 @@ TEST_CASE("Back-end switch: a failure under the overlay of cells leaves method a
     RenderWorker worker(std::move(setup));
     REQUIRE(has_learned(worker, 5));
     REQUIRE(rests(worker));
-    bench.devices.cuda->fail = true;  // the next pass is that of the cells
+    bench.devices.cuda->fail = true;  // the next pass renders the cells
     worker.set_cells_wanted(true);
     REQUIRE(is_told(worker, "CPU takes over with the learned fields"));
     REQUIRE(eventually([&] { return worker.latest()->backend.name == "cpu" && worker.latest()->cells; }));

@@ -165,7 +165,7 @@ TEST_CASE("gltf instances: EXT_mesh_gpu_instancing places a node's mesh, copied 
     const SceneDescription kept = check_kept(file, 1, 3);
     CHECK(kept.triangles.size() == 3);
     for (const std::string& warning : kept.warnings) CHECK(warning.find("extension") == std::string::npos);
-    // Move, turn and scale as those of a node below.
+    // Move, turn and scale as a node below does.
     GltfMaker nodes;
     const int same = leaf(nodes);
     nodes.node({{"translation", {0, 0, -2}}, {"rotation", {0, 0.6, 0, 0.8}}, {"children", {1, 2, 3}}});

@@ -84,7 +84,7 @@ TEST_CASE("mitsuba: a camera far from the origin looks along its axis") {
     CHECK(glm::length(view - glm::normalize(glm::dvec3(-2e10, 1e9, -4e10))) < 1e-4);
 }
 
-// 160 x 90 pixels of 640 x 360 from (320, 45) on, whose middle lies 80 pixels to the right and 90 above that of the film.
+// 160 x 90 pixels of 640 x 360 from (320, 45) on, whose middle lies 80 pixels to the right of and 90 above the middle of the film.
 TEST_CASE("mitsuba: scenes far from the origin are moved near it in doubles, with camera and lights") {
     const glm::dvec3 far(391234.37, 5820123.81, -3.5);
     const std::string move =

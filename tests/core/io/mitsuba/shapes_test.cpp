@@ -131,7 +131,7 @@ TEST_CASE("mitsuba: spheres and disks have their area, and the fewer triangles t
         return text;
     };
     const std::string light = "<emitter type=\"area\"/>";
-    // Of each: both ends of its range but those of thousands.
+    // Both ends of each range, except ranges of thousands.
     const struct {
         std::string content;
         int balls;

@@ -132,7 +132,7 @@ TEST_CASE("Halves of a film, purposes and neighbors have independent deviations"
     });
 }
 
-// The number of a light sample must not depend on that of the direction of the same pass. Seed 1.
+// The number of a light sample must not depend on the number of the direction of the same pass. Seed 1.
 TEST_CASE("Numbers of one pass are independent of each other") {
     using Numbers = double (*)(std::uint32_t);
     const Numbers pairs[][2] = {

@@ -26,7 +26,7 @@ bool all_find(const SceneView& scene, const Ray& ray, const Hit& expected) {
            (scene.bvh.leaves.empty() || finds(small_scene(scene)));
 }
 
-/// Whether a hit is that of a ray which misses the box of its triangle: all edge functions were rounding errors, see box_slack().
+/// Whether a hit is of a ray that misses the box of its triangle: all edge functions were rounding errors, see box_slack().
 bool passes_beside(const SceneView& scene, const Ray& ray, const Hit& hit) {
     if (!hit.found()) return false;
     const Triangle& triangle = scene.triangles[hit.primitive];

@@ -64,7 +64,7 @@ TEST_CASE("Edge functions are antisymmetric on a grid around a degenerate point"
             const float e = exact_edge_function({x, y, 0.0f}, q);
             negative += e < 0.0f ? 1 : 0;
             positive += e > 0.0f ? 1 : 0;
-            // In double the two products are exact, so the sign is that of i - j.
+            // In double the two products are exact, so e has the sign of i - j.
             all = all && ((e > 0.0f) == (i > j)) && ((e < 0.0f) == (i < j));
         }
     }

@@ -78,7 +78,7 @@ TEST_CASE("Values of emission differ by more than a tenth") {
     CHECK_FALSE(EmissionSeen::of(3e38f).differs_from(EmissionSeen::of(3e38f)));
 }
 
-// Of 32 samples, seeds 1 to 400: the mean over seeds is that of the covered share by five standard errors, and the variance
+// Of 32 samples, seeds 1 to 400: the mean over seeds agrees with the covered share within five standard errors, and the variance
 // falls by more than 20.
 TEST_CASE("Further camera rays keep the mean of a pixel that a lamp's border crosses, and remove its noise") {
     const HostScene scene = lamp_before_camera();
@@ -233,7 +233,7 @@ TEST_CASE("A line on the film visits the pixels that it crosses, in their order"
     }
 }
 
-// As for lamps: seeds 1 to 400, 32 samples; the mean is that of the open share by five standard errors.
+// As for lamps: seeds 1 to 400, 32 samples; the mean agrees with the open share within five standard errors.
 TEST_CASE("The border of a bright sky loses its noise by fewer rays, that of a dim one is left to the samples") {
     constexpr FeatureSet kSky = FeatureSet{}.with(Feature::Environment);
     for (const float radiance : {kRadiance, 1.0f}) {

@@ -157,7 +157,7 @@ TEST_CASE("Anisotropic metals look the same from both ends, and change when they
     }
 }
 
-// The table is that of isotropic facets and does not see the azimuth: only the mean over directions is right.
+// The table is of isotropic facets and does not see the azimuth: only the mean over directions is right.
 TEST_CASE("White anisotropic metals return all light in the mean over directions, and nearly so in each") {
     for (const auto [roughness, anisotropy, of_each] : {std::array{0.2f, 0.5f, 0.05f},
                                                         {0.2f, 0.9f, 0.12f},

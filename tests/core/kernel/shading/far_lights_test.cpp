@@ -131,8 +131,8 @@ TEST_CASE("The density of a map integrates to one, and is that of its samples") 
         for (int i = 0; i < 100000; ++i) {
             const FarSample sample = sample_far(packed.view().far_lights, random.square(), random.next());
             REQUIRE(std::fabs(glm::length(sample.wi) - 1.0f) < 1e-6f);
-            // Between texels the density may rise from 0 to its maximum: its slope there is that of the rounded
-            // direction.
+            // Between texels the density may rise from 0 to its maximum, and the rounded direction lies on that
+            // slope.
             const float evaluated = map_pdf_sa(map, sample.wi);
             REQUIRE(std::fabs(evaluated - sample.pdf_sa) <= 2e-3f * sample.pdf_sa + 1e-5f);
         }
