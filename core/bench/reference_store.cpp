@@ -12,7 +12,6 @@
 #include "core/base/timer.h"
 #include "core/io/camera_file.h"
 #include "core/measure/picture_identity.h"
-#include "core/scene/scene_hash.h"
 
 namespace pl::bench {
 namespace {
@@ -44,10 +43,9 @@ Number number_in(const fs::path& path, const ImageMetadata& metadata, const char
 
 }  // namespace
 
-PictureContent content_of(const SceneDescription& scene, const RenderSettings& settings) {
-    std::string hash = scene_hash(scene);
-    return {.picture_hash = picture_hash(hash, settings),
-            .scene_hash = std::move(hash),
+PictureContent content_of(const std::string& scene_hash, const RenderSettings& settings) {
+    return {.picture_hash = picture_hash(scene_hash, settings),
+            .scene_hash = scene_hash,
             .width = settings.width,
             .height = settings.height,
             .max_depth = settings.max_depth};
@@ -174,7 +172,7 @@ class ReferenceMaker {
 public:
     ReferenceMaker(Session& session, const ReferencePlan& plan, const ReferenceStore& store)
         : session_(session), plan_(plan), store_(store), seed_(session.settings().seed) {
-        const PictureContent content = content_of(session.scene(), session.settings());
+        const PictureContent content = content_of(session.scene_hash(), session.settings());
         if (auto found = store.find(content)) {
             reference_ = *std::move(found);
         } else {

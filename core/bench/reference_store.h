@@ -26,7 +26,7 @@ struct PictureContent {
     int max_depth = 0;
 };
 
-PictureContent content_of(const SceneDescription& scene, const RenderSettings& settings);
+PictureContent content_of(const std::string& scene_hash, const RenderSettings& settings);
 
 /// One half, with an .exr file of its own.
 struct ReferenceHalf {

@@ -27,8 +27,6 @@ std::uint64_t picture_key(const std::string& scene_hash, const RenderSettings& s
     return hash.value();
 }
 
-std::string picture_hash(const std::string& scene_hash, const RenderSettings& settings) {
-    return fmt::format("{:016x}", picture_key(scene_hash, settings));
-}
+std::string picture_hash(std::uint64_t key) { return fmt::format("{:016x}", key); }
 
 }  // namespace pl

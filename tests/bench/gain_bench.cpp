@@ -18,6 +18,7 @@
 
 #include "core/bench/reference_store.h"
 #include "core/io/load_scene.h"
+#include "core/scene/scene_hash.h"
 #include "cpu/cpu_backend.h"
 #include "tests/bench/gain_report.h"
 
@@ -40,7 +41,7 @@ bench::Reference reference_of(const GainSetup& setup, const std::string& name,
     settings.next_event = true;
     const bench::ReferenceStore store(setup.words.at("references"));
     const auto spp = static_cast<std::uint32_t>(setup["reference"]);
-    if (auto found = store.find(bench::content_of(*scene, settings));
+    if (auto found = store.find(bench::content_of(scene_hash(*scene), settings));
         found && found->halves[0].spp >= spp && found->halves[1].spp >= spp)
         return *std::move(found);
     Session session(make_cpu_backend({.threads = setup.integer("threads")}), scene, settings);

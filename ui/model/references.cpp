@@ -4,7 +4,6 @@
 
 #include "core/bench/reference_store.h"
 #include "core/measure/picture_identity.h"
-#include "core/scene/scene_hash.h"
 
 namespace pl::ui {
 namespace {
@@ -12,12 +11,12 @@ namespace {
 /// Samples in each half: more than a picture in a window reaches. Rendering may be stopped earlier.
 constexpr std::uint32_t kStoredReferenceSpp = 4096;
 
-std::shared_ptr<const StoredReference> to_viewer(const bench::Reference& reference, const SceneDescription& scene,
+std::shared_ptr<const StoredReference> to_viewer(const bench::Reference& reference, std::uint64_t picture,
                                                  const RenderSettings& settings) {
     if (!reference.has_samples()) return nullptr;
     const auto& [first, second] = reference.halves;
     auto stored = std::make_shared<StoredReference>();
-    stored->halves = {.picture = picture_key(scene_hash(scene), settings),
+    stored->halves = {.picture = picture,
                       .width = settings.width,
                       .height = settings.height,
                       .first = first.image.pixels,
@@ -41,10 +40,13 @@ RenderSettings reference_settings(RenderSettings settings) {
 }  // namespace
 
 std::shared_ptr<const StoredReference> find_stored_reference(const std::filesystem::path& folder,
-                                                             const SceneDescription& scene,
-                                                             const RenderSettings& settings) {
-    const auto found = bench::ReferenceStore(folder).find(bench::content_of(scene, settings));
-    return found ? to_viewer(*found, scene, settings) : nullptr;
+                                                             std::uint64_t picture, const RenderSettings& settings) {
+    const auto found = bench::ReferenceStore(folder).find({.picture_hash = picture_hash(picture),
+                                                           .scene_hash = "",  // of messages that are not told here
+                                                           .width = settings.width,
+                                                           .height = settings.height,
+                                                           .max_depth = settings.max_depth});
+    return found ? to_viewer(*found, picture, settings) : nullptr;
 }
 
 std::shared_ptr<const StoredReference> make_stored_reference(const std::filesystem::path& folder,
@@ -61,7 +63,7 @@ std::shared_ptr<const StoredReference> make_stored_reference(const std::filesyst
          .stop = monitor.stop,
          .show = [&](const ProgressState& state) { monitor.progress(state.share, state.detail); }},
         bench::ReferenceStore(folder));
-    return to_viewer(outcome.reference, *scene.description, settings);
+    return to_viewer(outcome.reference, picture_key(session.scene_hash(), settings), settings);
 }
 
 References::References(const ModelServices& services, const RenderControls& render, const ViewedScene& scene)
@@ -87,8 +89,8 @@ void References::look_up() {
     if (picture == 0 || picture == looked_up_) return;
     looked_up_ = picture;
     if (current() != nullptr) return;
-    jobs_.push([this, scene = scene_.rendered(), settings = render_.settings()]() -> Jobs::Report {
-        const auto found = find_stored_reference(options_.reference_dir, *scene.description, settings);
+    jobs_.push([this, picture, settings = render_.settings()]() -> Jobs::Report {
+        const auto found = find_stored_reference(options_.reference_dir, picture, settings);
         if (!found) return {};
         return [this, found] { adopt(found); };
     });

@@ -17,11 +17,10 @@ namespace pl::ui {
 
 // References of the picture in the window: found in a folder, and made there.
 
-/// The stored reference of exactly this picture; null if there is none with samples in both halves. Throws
+/// The stored reference of a picture_key(), of these settings; null if there is none with samples in both halves. Throws
 /// Error(Input) for files that are damaged or whose content differs from the one in their name.
 std::shared_ptr<const StoredReference> find_stored_reference(const std::filesystem::path& folder,
-                                                             const SceneDescription& scene,
-                                                             const RenderSettings& settings);
+                                                             std::uint64_t picture, const RenderSettings& settings);
 
 /// Continues it on the CPU, by path tracing with next-event estimation, until it is converged or the monitor stops it; with
 /// samples in both halves either way.

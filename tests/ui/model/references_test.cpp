@@ -42,13 +42,18 @@ std::shared_ptr<const StoredReference> make_for(int passes, const std::filesyste
     return make_stored_reference(folder, {.name = "cornell", .description = scene}, settings, make, monitor);
 }
 
+std::shared_ptr<const StoredReference> find_in(const TemporaryFolder& folder, const SceneDescription& scene,
+                                               const RenderSettings& settings) {
+    return find_stored_reference(folder.path(), picture_key(scene_hash(scene), settings), settings);
+}
+
 }  // namespace
 
 TEST_CASE("Stored reference: one that is stopped at once has both halves, is found and continued") {
     const TemporaryFolder folder;
     const auto scene = std::make_shared<const SceneDescription>(load_scene("cornell", find_assets_dir()));
     const RenderSettings settings = small_settings(*scene);
-    CHECK(find_stored_reference(folder.path(), *scene, settings) == nullptr);
+    CHECK(find_in(folder, *scene, settings) == nullptr);
     const auto made = make_for(0, folder.path(), scene, settings);
     REQUIRE(made != nullptr);
     CHECK(made->spp[0] >= 1);
@@ -56,12 +61,13 @@ TEST_CASE("Stored reference: one that is stopped at once has both halves, is fou
     CHECK(made->halves.picture == picture_key(scene_hash(*scene), settings));
     CHECK(made->halves.first.size() == 256);
     CHECK(made->halves.first != made->halves.second);
-    const auto found = find_stored_reference(folder.path(), *scene, settings);
+    const auto found = find_in(folder, *scene, settings);
     REQUIRE(found != nullptr);
     CHECK(found->spp == made->spp);
     CHECK(found->halves.first == made->halves.first);
     // The reference in the store of `pathlight reference`.
-    CHECK(bench::ReferenceStore(folder.path()).require(bench::content_of(*scene, settings)).has_samples());
+    CHECK(
+        bench::ReferenceStore(folder.path()).require(bench::content_of(scene_hash(*scene), settings)).has_samples());
     const auto more = make_for(20, folder.path(), scene, settings);
     CHECK(more->spp[0] + more->spp[1] > made->spp[0] + made->spp[1]);
 }
@@ -73,21 +79,21 @@ TEST_CASE("Stored reference: one of other light, camera, size or depth is not fo
     REQUIRE(make_for(0, folder.path(), scene, settings) != nullptr);
     SceneDescription brighter = *scene;
     for (MaterialDescription& material : brighter.materials) material.emission *= 2.0f;
-    CHECK(find_stored_reference(folder.path(), brighter, settings) == nullptr);
+    CHECK(find_in(folder, brighter, settings) == nullptr);
     RenderSettings other = settings;
     other.camera.eye.x += 1.0f;
-    CHECK(find_stored_reference(folder.path(), *scene, other) == nullptr);
+    CHECK(find_in(folder, *scene, other) == nullptr);
     other = settings;
     other.width = 32;
-    CHECK(find_stored_reference(folder.path(), *scene, other) == nullptr);
+    CHECK(find_in(folder, *scene, other) == nullptr);
     other = settings;
     other.max_depth = 5;
-    CHECK(find_stored_reference(folder.path(), *scene, other) == nullptr);
+    CHECK(find_in(folder, *scene, other) == nullptr);
     other = settings;  // these decide its noise alone
     other.method = MethodId::Default;
     other.next_event = true;
     other.seed = 99;
-    CHECK(find_stored_reference(folder.path(), *scene, other) != nullptr);
+    CHECK(find_in(folder, *scene, other) != nullptr);
 }
 
 }  // namespace pl::test
@@ -117,7 +123,7 @@ struct ReferenceBench : ModelBench {
         references.save_half(reference, 0);
         references.save_half(reference, 1);
     }
-    bench::PictureContent content() const { return bench::content_of(*small_scene(), options.settings); }
+    bench::PictureContent content() const { return bench::content_of(scene_hash(*small_scene()), options.settings); }
 };
 
 }  // namespace
