@@ -8,6 +8,9 @@
 
 """
 
+import os
+import pathlib
+
 from ._pathlight import (
     Error,
     Field,
@@ -25,14 +28,28 @@ from ._pathlight import (
     run,
     scenes,
 )
-from ._plots import plot_hemisphere
 
-Field.plot = plot_hemisphere
+# Scenes come with an installed package; beside a build the program's own search finds those of the source.
+_assets = pathlib.Path(__file__).parent / "assets"
+if _assets.is_dir():
+    os.environ.setdefault("PATHLIGHT_ASSETS", str(_assets))
+
+
+class Learner:
+    """Learns in place of the table of a session. Any object with such a method may do so."""
+
+    returns = "probabilities"  # of each volume up to a factor; or "radiance"
+
+    def update(self, samples: Samples):
+        """An array (volumes, cells) by the training samples since the last update."""
+        raise NotImplementedError(f"{type(self).__name__}.update(samples)")
+
 
 __all__ = [
     "Error",
     "Field",
     "InputError",
+    "Learner",
     "PathTracer",
     "Samples",
     "Scene",

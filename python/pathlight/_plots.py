@@ -5,12 +5,8 @@ import numpy as np
 PIXELS = 160
 
 
+# Field.plot()
 def plot_hemisphere(field, volume, values="radiance", axes=None, brightest=None):
-    """Draws the hemisphere of a volume as seen along its normal, equal areas of the disc for equal projected solid angles.
-
-    values: "radiance", "probabilities" or "visits". axes: of matplotlib; new ones by default. brightest: value of the brightest
-    color, the largest one by default. Returns the axes.
-    """
     import matplotlib.pyplot as plt
 
     normal, directions = field.normals[volume], field.directions[volume]
