@@ -20,6 +20,6 @@ def plot_hemisphere(field, volume, values="radiance", axes=None, brightest=None)
     nearest = (seen @ directions.T).argmax(axis=2)
     disc = np.where(height > 0, getattr(field, values)[volume][nearest], np.nan)
     axes = axes or plt.subplots(figsize=(3, 3))[1]
-    axes.imshow(disc, cmap="inferno", vmin=0, vmax=brightest)
+    axes.imshow(disc, cmap="inferno", vmin=0, vmax=brightest, interpolation="nearest")
     axes.axis("off")
     return axes

@@ -229,8 +229,8 @@ def test_other_threads_go_on_and_may_not_use_the_session(door):
 
 def test_a_thousand_sessions_leave_no_objects():
     """A reference that a session, its field, its learner or its errors kept would leave a thousand blocks or more."""
-    scene, learner = pathlight.Scene("furnace"), Uniform()
-    options = dict(method="reinforcement", width=8, height=8, volumes=20, bins=16, threads=1)
+    scene, learner = pathlight.Scene("cornell"), Uniform()
+    options = dict(method="reinforcement", width=8, height=8, volumes=50, bins=16, threads=1)
 
     def use():
         session = pathlight.Session(scene, learner=learner, **options)
