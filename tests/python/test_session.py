@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 
 import pathlight
+from test_scene import arrays
 
 SMALL = dict(width=48, height=32, threads=2)
 
@@ -229,8 +230,8 @@ def test_other_threads_go_on_and_may_not_use_the_session(door):
 
 def test_a_thousand_sessions_leave_no_objects():
     """A reference that a session, its field, its learner or its errors kept would leave a thousand blocks or more."""
-    scene, learner = pathlight.Scene("cornell"), Uniform()
-    options = dict(method="reinforcement", width=8, height=8, volumes=50, bins=16, threads=1)
+    scene, learner = arrays(), Uniform()
+    options = dict(method="reinforcement", width=8, height=8, volumes=10, bins=16, threads=1)
 
     def use():
         session = pathlight.Session(scene, learner=learner, **options)
