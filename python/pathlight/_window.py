@@ -6,18 +6,18 @@ import shutil
 import subprocess
 import tempfile
 
-from . import _pathlight
+from . import InputError, UnavailableError, UsageError, WorkError
 
-ERRORS = {2: _pathlight.UsageError, 3: _pathlight.InputError, 4: _pathlight.UnavailableError}  # by exit code
+ERRORS = {2: UsageError, 3: InputError, 4: UnavailableError}  # by exit code
 
 
 # Session.view()
 def open_window(session, **options):
     program = os.environ.get("PATHLIGHT_PROGRAM") or shutil.which("pathlight")
     if not program:
-        raise _pathlight.UnavailableError("view: no program pathlight on the PATH: PATHLIGHT_PROGRAM names it")
+        raise UnavailableError("view: no program pathlight on the PATH: PATHLIGHT_PROGRAM names it")
     with tempfile.TemporaryDirectory() as folder:
         words = shlex.split(session._view_command(folder, **options))
         ended = subprocess.run([program, *words[1:]], stderr=subprocess.PIPE, text=True)
     if ended.returncode != 0:
-        raise ERRORS.get(ended.returncode, _pathlight.WorkError)(ended.stderr.strip() or f"view: exit code {ended.returncode}")
+        raise ERRORS.get(ended.returncode, WorkError)(ended.stderr.strip() or f"view: exit code {ended.returncode}")
