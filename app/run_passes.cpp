@@ -15,7 +15,7 @@ class Passes {
 public:
     Passes(Session& session, const Options& options, const StopFlag& stop, Until until, const RunAids& aids)
         : session_(session), slot_(slot_of(options.render)), options_(options), stop_(stop), until_(until),
-          target_(aids.target), checkpoints_(aids.checkpoints) {}
+          aids_(aids) {}
 
     RunOutcome run(ProgressDisplay& progress) {
         EndedBy end = limit_met(false);
@@ -24,22 +24,26 @@ public:
             if (done == Progress::Stopped) return {EndedBy::Interruption, seconds()};
             end = limit_met(done == Progress::Rendered);
             if (end == EndedBy::Nothing && stop_) end = EndedBy::Interruption;
-            if (end == EndedBy::Nothing && checkpoints_ != nullptr) checkpoints_->save_if_due(session_, seconds());
-            progress.show(state());
+            if (end == EndedBy::Nothing && aids_.checkpoints != nullptr)
+                aids_.checkpoints->save_if_due(session_, seconds());
+            const ProgressState now = state();
+            progress.show(now);
+            if (aids_.show_progress) aids_.show_progress(now);
         }
         return {end, seconds()};
     }
 
 private:
     double seconds() const {
-        return watch_.seconds() + (checkpoints_ != nullptr ? checkpoints_->earlier_seconds() : 0.0);
+        return watch_.seconds() + (aids_.checkpoints != nullptr ? aids_.checkpoints->earlier_seconds() : 0.0);
     }
 
     EndedBy limit_met(bool has_new_sample) const {
         if (until_ == Until::Learned && info_of(slot_.method).precomputes)
             return precomputed_share().value_or(0.0) >= 1.0 ? EndedBy::Learned : EndedBy::Nothing;
         if (session_.passes(slot_) == 0) return EndedBy::Nothing;
-        if (has_new_sample && target_ != nullptr && target_->is_met(session_, slot_)) return EndedBy::TargetError;
+        if (has_new_sample && aids_.target != nullptr && aids_.target->is_met(session_, slot_))
+            return EndedBy::TargetError;
         if (session_.passes(slot_) >= options_.spp_limit()) return EndedBy::Spp;
         const auto limit = options_.time_limit_seconds;
         return limit && seconds() >= *limit ? EndedBy::TimeLimit : EndedBy::Nothing;
@@ -48,7 +52,7 @@ private:
     /// Passes until the next one after which a limit is looked at; times are, whenever the back end has rendered as many as it
     /// takes at once.
     std::uint32_t most_passes() const {
-        if (target_ != nullptr) return 1;
+        if (aids_.target != nullptr) return 1;
         const std::uint32_t passes = session_.passes(slot_);
         return passes < options_.spp_limit() ? options_.spp_limit() - passes : 1;
     }
@@ -63,7 +67,7 @@ private:
     double share_done() const {
         double share = static_cast<double>(session_.passes(slot_)) / options_.spp_limit();
         if (options_.time_limit_seconds) share = std::max(share, seconds() / *options_.time_limit_seconds);
-        if (target_ != nullptr) share = std::max(share, target_->share_done());
+        if (aids_.target != nullptr) share = std::max(share, aids_.target->share_done());
         return std::min(share, 1.0);
     }
 
@@ -72,8 +76,8 @@ private:
         std::string text = has_limit ? fmt::format("{}/{} spp", session_.passes(slot_), options_.spp_limit())
                                      : fmt::format("{} spp", session_.passes(slot_));
         text += fmt::format(", {}", duration_text(seconds()));
-        if (target_ != nullptr && target_->measured())
-            text += fmt::format(", noise {:.2g} of {:.2g}", *target_->measured(), target_->target());
+        if (aids_.target != nullptr && aids_.target->measured())
+            text += fmt::format(", noise {:.2g} of {:.2g}", *aids_.target->measured(), aids_.target->target());
         return text;
     }
 
@@ -93,8 +97,7 @@ private:
     const Options& options_;
     const StopFlag& stop_;
     Until until_;
-    ErrorTarget* target_;
-    CheckpointFiles* checkpoints_;
+    const RunAids& aids_;
     Stopwatch watch_;
 };
 

@@ -1,8 +1,11 @@
 // The loop of every subcommand without a window: passes until a limit is reached or the run is interrupted.
 #pragma once
 
+#include <functional>
+
 #include "app/console.h"
 #include "app/state_files.h"
+#include "core/base/progress.h"
 #include "core/measure/error_target.h"
 #include "core/session/session.h"
 
@@ -31,8 +34,9 @@ void announce(const Session& session, Console& console);
 
 /// Observers of a run; each may be null.
 struct RunAids {
-    ErrorTarget* target = nullptr;           ///< may end it
-    CheckpointFiles* checkpoints = nullptr;  ///< written along the way
+    ErrorTarget* target = nullptr;                              ///< may end it
+    CheckpointFiles* checkpoints = nullptr;                     ///< written along the way
+    std::function<void(const ProgressState&)> show_progress{};  ///< after every piece of work
 };
 
 /// Makes at least one sample per pixel unless `stop` is raised, an interruption.

@@ -1,11 +1,13 @@
 #include "python/bound_field.h"
 
 #include <fmt/format.h>
+#include <nanobind/stl/filesystem.h>
 #include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>
 
 #include "core/base/error.h"
 #include "core/fields/inspect_field.h"
+#include "core/io/field_file.h"
 #include "python/bindings.h"
 #include "python/convert.h"
 
@@ -118,7 +120,7 @@ std::string words_of(const BoundField& field) {
 void bind_field(nb::module_& module) {
     nb::class_<BoundField>(
         module, "Field",
-        "A learned field as it was when Session.field() was called. Arrays are copies of what its volumes hold.")
+        "A learned field as it was when the session was asked. Arrays are copies of what its volumes hold.")
         .def_prop_ro("positions", &position_array, nb::rv_policy::reference, "Of the volumes. (volumes, 3) float32")
         .def_prop_ro(
             "normals",
@@ -140,11 +142,21 @@ void bind_field(nb::module_& module) {
                      "Share of BSDF samples in the mixture that guides paths. (volumes,) float32")
         .def("pdf", &densities, nb::arg("positions"), nb::arg("normals"), nb::arg("directions"),
              "Density of the field per steradian, without the BSDF's part of the mixture. All (n, 3) -> (n,) "
-             "float32; nan where no "
-             "volume serves the point.")
+             "float32; nan where no volume serves the point.")
         .def("sample", &sample, nb::arg("positions"), nb::arg("normals"), nb::arg("numbers"),
              "Directions by uniform numbers (n, 2), and their densities: (n, 3) and (n,) float32; nan where no "
              "volume serves the point.")
+        .def("plot", python_method("_plots", "plot_hemisphere"),
+             nb::sig("def plot(self, volume: int, values: str = 'radiance', axes: object | None = None, "
+                     "brightest: float | None = None) -> object"),
+             "Draws the hemisphere of a volume as seen along its normal, by matplotlib: equal areas of the disc "
+             "for equal projected solid angles.\n\n"
+             "values: 'radiance', 'probabilities' or 'visits'. axes: of matplotlib; new ones by default. "
+             "brightest: value of the brightest color, the largest one by default. Returns the axes.")
+        .def(
+            "save",
+            [](const BoundField& field, const std::filesystem::path& path) { write_field(path, field.learned); },
+            nb::arg("path"), "Writes the file that Session(load_field=...) and `--load-field` continue from.")
         .def("__len__", &BoundField::volumes)
         .def("__repr__", &words_of);
 }

@@ -46,16 +46,6 @@ bool returns_radiance(const nb::handle& learner) {
     return name == "radiance";
 }
 
-/// What NumPy makes an array of, with the shape of the sums.
-std::vector<float> cells_of(const nb::object& answer, std::size_t volumes, std::size_t cells) {
-    const nb::object array = nb::module_::import_("numpy").attr("ascontiguousarray")(answer, "float32");
-    const auto values = nb::cast<nb::ndarray<const float, nb::c_contig, nb::device::cpu>>(array);
-    if (values.ndim() != 2 || values.shape(0) != volumes || values.shape(1) != cells)
-        throw Error(ErrorKind::Input, fmt::format("learner: expected an array of shape ({}, {}), got {}", volumes,
-                                                  cells, nb::str(nb::object(array.attr("shape"))).c_str()));
-    return {values.data(), values.data() + values.size()};
-}
-
 }  // namespace
 
 FieldLearner bound_learner(const nb::handle& learner) {
@@ -65,9 +55,8 @@ FieldLearner bound_learner(const nb::handle& learner) {
     return [learner, are_radiance = returns_radiance(learner)](const LearnerInput& input) {
         const nb::gil_scoped_acquire held;
         const nb::object answer = learner.attr("update")(samples_of(input));
-        return LearnedCells{.are_radiance = are_radiance,
-                            .values = cells_of(answer, volume_count(input.tables),
-                                               static_cast<std::size_t>(input.shape.cells.count()))};
+        const nb::tuple shape = nb::make_tuple(volume_count(input.tables), input.shape.cells.count());
+        return LearnedCells{.are_radiance = are_radiance, .values = floats_of("learner", answer, shape)};
     };
 }
 

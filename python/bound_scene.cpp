@@ -1,6 +1,5 @@
 #include "python/bound_scene.h"
 
-#include <cstdlib>
 #include <map>
 #include <optional>
 
@@ -26,14 +25,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The folder in the installed package, unless the environment names another one or there is none.
-fs::path assets_dir() {
-    const fs::path module = nb::cast<std::string>(nb::module_::import_("pathlight").attr("__file__"));
-    const fs::path packaged = module.parent_path() / "assets";
-    const bool is_named = std::getenv("PATHLIGHT_ASSETS") != nullptr;
-    return !is_named && fs::is_directory(packaged) ? packaged : find_assets_dir();
-}
-
 void warn_about(const SceneDescription& scene) {
     for (const std::string& warning : scene.warnings)
         if (PyErr_WarnEx(PyExc_UserWarning, warning.c_str(), 1) != 0) throw nb::python_error();
@@ -42,15 +33,15 @@ void warn_about(const SceneDescription& scene) {
 BoundScene open_scene(const fs::path& path, const std::map<std::string, nb::object>& parameters,
                       const std::string& camera, const std::optional<fs::path>& materials,
                       std::optional<bool> default_light, const std::optional<std::string>& up_axis) {
-    LoadSettings asked{.camera = camera, .materials = materials.value_or(fs::path()), .default_light = default_light};
-    for (const auto& [key, value] : parameters) asked.parameters.emplace_back(key, nb::str(value).c_str());
-    if (up_axis) asked.up_axis = parse_choice<UpAxis>(*up_axis);
-    const fs::path assets = assets_dir();
     BoundScene scene{.name = path.string(), .description = {}};
+    scene.load = {.camera = camera, .materials = materials.value_or(fs::path()), .default_light = default_light};
+    for (const auto& [key, value] : parameters) scene.load.parameters.emplace_back(key, nb::str(value).c_str());
+    if (up_axis) scene.load.up_axis = parse_choice<UpAxis>(*up_axis);
     {
         const nb::gil_scoped_release released;
         const Stopwatch watch;
-        scene.description = std::make_shared<const SceneDescription>(load_scene(scene.name, assets, asked));
+        scene.description =
+            std::make_shared<const SceneDescription>(load_scene(scene.name, find_assets_dir(), scene.load));
         scene.load_seconds = watch.seconds();
     }
     warn_about(*scene.description);
@@ -92,7 +83,9 @@ BoundScene scene_from_arrays(const Vectors& vertices, const Indices& triangles, 
     scene.camera = replaced(scene.camera, choice);
     validate_scene(scene);
     scene.camera.up = usable_up(scene.camera);
-    return {.name = "arrays", .description = std::make_shared<const SceneDescription>(std::move(scene))};
+    return {.name = "arrays",
+            .description = std::make_shared<const SceneDescription>(std::move(scene)),
+            .is_from_arrays = true};
 }
 
 nb::dict material_dict(const SceneDescription& scene) {
@@ -124,7 +117,7 @@ std::string words_of(const BoundScene& scene) {
 
 void bind_scene(nb::module_& module) {
     module.def(
-        "scenes", [] { return list_scenes(assets_dir()); }, "Names of the scenes that come with pathlight.");
+        "scenes", [] { return list_scenes(find_assets_dir()); }, "Names of the scenes that come with pathlight.");
     nb::class_<BoundScene>(module, "Scene", "A scene: surfaces, lights and a camera. It does not change.")
         .def(
             "__init__",
@@ -139,19 +132,17 @@ void bind_scene(nb::module_& module) {
             "Opens a scene by its name, see scenes(), or a file: .obj, .gltf, .glb, Mitsuba .xml or a scene's "
             ".json.\n\n"
             "parameters: values of its knobs, or of the $names of a Mitsuba scene. camera: name or number of one "
-            "that the file lists.\n"
-            "materials: file of values that replace the scene's. Warnings of the loader are warnings of Python.")
+            "that the file lists.\nmaterials: file of values that replace the scene's. Warnings of the loader "
+            "are warnings of Python.")
         .def_static("from_arrays", &scene_from_arrays, nb::arg("vertices"), nb::arg("triangles"), nb::kw_only(),
                     nb::arg("materials"), nb::arg("material_of") = nb::none(), nb::arg("camera") = nb::dict(),
                     nb::arg("environment") = nb::dict(),
                     "A scene of triangles. vertices: (n, 3). triangles: (m, 3), numbers of vertices, "
                     "counter-clockwise from the front.\n\n"
-                    "materials: name -> values as in scene files, such as {'lamp': {'emission': [9, 9, 9]}, 'wall': "
-                    "{'albedo': [.5, .5, .5]}}.\n"
-                    "material_of: (m,), the material of each triangle, in the order of the dictionary; all have the "
-                    "first one by default.\n"
-                    "camera: 'eye', 'target', 'up', 'fov_deg', ...; by default it frames the scene. environment: "
-                    "'radiance', 'sky', ...")
+                    "materials: name -> values as in scene files, such as {'lamp': {'emission': [9, 9, 9]}, "
+                    "'wall': {'albedo': [.5, .5, .5]}}.\nmaterial_of: (m,), the material of each triangle, in "
+                    "the order of the dictionary; all have the first one by default.\ncamera: 'eye', 'target', "
+                    "'up', 'fov_deg', ...; by default it frames the scene. environment: 'radiance', 'sky', ...")
         .def_ro("name", &BoundScene::name)
         .def_prop_ro(
             "camera", [](const BoundScene& scene) { return from_json(camera_json(scene.description->camera)); },

@@ -8,6 +8,7 @@
 #include "app/run_passes.h"
 #include "python/bound_field.h"
 #include "python/bound_scene.h"
+#include "python/caller.h"
 #include "python/convert.h"
 
 namespace pl {
@@ -27,29 +28,22 @@ public:
     nb::object statistics() const;
     BoundField field() const;
     void save(const std::filesystem::path& path) const;
+    /// Command line of the window that shows scene and settings, and what has been learned, of which a copy is written to `folder`.
+    std::string view_command(const std::filesystem::path& folder, const nb::kwargs& options) const;
     nb::bytes png() const;
     std::string text() const;
 
-    // For the search for cycles, in which a learner that refers to its session would else stay.
-    const nb::object& learner() const { return learner_; }
-    void drop_learner();
+    /// None: the table's own learning.
+    void set_learner(const nb::object& learner);
+    const nb::object& called() const { return learner_; }
+    void drop_called();
 
 private:
-    /// While one lives, another thread, or a learner, is refused.
-    class Use {
-    public:
-        explicit Use(const BoundSession& session);
-        ~Use() { session_.is_used_ = false; }
-        Use(const Use&) = delete;
-        Use& operator=(const Use&) = delete;
-
-    private:
-        const BoundSession& session_;
-    };
-
+    SoleUse use() const { return {is_used_, "session"}; }
     FilmSlot slot() const { return slot_of(options_.render); }
     Snapshot snapshot() const;
     Json statistics_of(const Snapshot& snapshot) const;
+    std::string command(Command subcommand, const Options& shown) const;
 
     BoundScene scene_;
     nb::object learner_;  ///< null without one

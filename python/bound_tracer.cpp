@@ -8,14 +8,13 @@
 #include "core/session/path_settings.h"
 #include "python/bindings.h"
 #include "python/bound_scene.h"
+#include "python/caller.h"
 #include "python/convert.h"
 
 namespace pl {
 namespace {
 
 using diagnose::PathVertex;
-
-nb::object numpy() { return nb::module_::import_("numpy"); }
 
 nb::object vertex_type() {
     nb::list members;
@@ -28,7 +27,7 @@ nb::object vertex_type() {
     for (const char* name : {"throughput", "direction"}) add(name, "<f4", 3);
     add("pdf", "<f4", 1);
     add("incident", "<f4", 3);
-    return numpy().attr("dtype")(members);
+    return nb::module_::import_("numpy").attr("dtype")(members);
 }
 
 nb::object vertex_array(std::vector<PathVertex> vertices) {
@@ -36,17 +35,6 @@ nb::object vertex_array(std::vector<PathVertex> vertices) {
     const nb::object bytes =
         nb::cast(own_array<std::uint8_t>(std::move(vertices), {count, sizeof(PathVertex)}), nb::rv_policy::reference);
     return bytes.attr("view")(vertex_type()).attr("reshape")(-1);
-}
-
-/// The numbers of a sampler's answer for `rows` vertices. `columns` 1: one number each.
-std::vector<float> numbers_of(const char* method, const nb::object& answer, std::size_t rows, std::size_t columns) {
-    const nb::object array = numpy().attr("ascontiguousarray")(answer, "float32");
-    const auto values = nb::cast<nb::ndarray<const float, nb::c_contig, nb::device::cpu>>(array);
-    if (values.ndim() != (columns == 1 ? 1u : 2u) || values.size() != rows * columns)
-        throw Error(ErrorKind::Input, fmt::format("sampler.{}: expected an array of shape ({},{}), got {}", method,
-                                                  rows, columns == 1 ? "" : fmt::format(" {}", columns),
-                                                  nb::str(nb::object(array.attr("shape"))).c_str()));
-    return {values.data(), values.data() + values.size()};
 }
 
 [[noreturn]] void refuse(const char* method, std::size_t i, const PathVertex& vertex, const char* expected,
@@ -59,7 +47,7 @@ std::vector<float> numbers_of(const char* method, const nb::object& answer, std:
 std::vector<Vec3f> ask_directions(nb::handle sampler, std::span<const PathVertex> vertices) {
     const nb::gil_scoped_acquire held;
     const nb::object answer = sampler.attr("sample")(vertex_array({vertices.begin(), vertices.end()}));
-    const std::vector<float> values = numbers_of("sample", answer, vertices.size(), 3);
+    const std::vector<float> values = floats_of("sampler.sample", answer, nb::make_tuple(vertices.size(), 3));
     std::vector<Vec3f> directions;
     for (std::size_t i = 0; i < vertices.size(); ++i) {
         const Vec3f wi{values[3 * i], values[3 * i + 1], values[3 * i + 2]};
@@ -76,7 +64,7 @@ std::vector<float> ask_densities(nb::handle sampler, std::span<const PathVertex>
     const nb::gil_scoped_acquire held;
     const nb::object answer = sampler.attr("pdf")(vertex_array({vertices.begin(), vertices.end()}),
                                                   copy_array<float>(directions, {directions.size(), 3}));
-    const std::vector<float> values = numbers_of("pdf", answer, vertices.size(), 1);
+    const std::vector<float> values = floats_of("sampler.pdf", answer, nb::make_tuple(vertices.size()));
     for (std::size_t i = 0; i < vertices.size(); ++i)
         if (!(values[i] >= 0.0f) || std::isinf(values[i]))
             refuse("pdf", i, vertices[i], "a finite density, not negative", fmt::format("{:g}", values[i]));
@@ -111,6 +99,7 @@ public:
     }
 
     nb::object trace() {
+        const SoleUse held = use();
         std::vector<PathVertex> vertices;
         {
             const nb::gil_scoped_release released;
@@ -120,52 +109,43 @@ public:
     }
 
     NumpyArray<float> film() const {
+        const SoleUse held = use();
         std::vector<Vec3f> pixels;
         for (const FilmPixel& pixel : tracer_.film()) pixels.push_back(mean_or_nan(pixel));
         return own_array<float>(std::move(pixels), {static_cast<std::size_t>(tracer_.height()),
                                                     static_cast<std::size_t>(tracer_.width()), 3});
     }
 
-    std::uint32_t passes() const { return tracer_.passes(); }
+    std::uint32_t passes() const {
+        const SoleUse held = use();
+        return tracer_.passes();
+    }
 
     std::uint64_t invalid_samples() const {
+        const SoleUse held = use();
         std::uint64_t count = 0;
         for (const FilmPixel& pixel : tracer_.film()) count += pixel.invalid;
         return count;
     }
 
-    // For the search for cycles, as in BoundSession.
-    const nb::object& sampler() const { return object_; }
-    void drop_sampler() { object_.reset(); }
+    const nb::object& called() const { return object_; }
+    void drop_called() { object_.reset(); }
 
 private:
+    SoleUse use() const { return {is_used_, "tracer"}; }
+
     nb::object object_;  ///< null without a sampler
     diagnose::DirectionSampler sampler_;
     diagnose::BatchTracer tracer_;
+    mutable std::atomic<bool> is_used_{false};
 };
-
-int visit_sampler(PyObject* self, visitproc visit, void* arg) {
-    Py_VISIT(Py_TYPE(self));
-    if (nb::inst_ready(self)) Py_VISIT(nb::inst_ptr<BoundTracer>(self)->sampler().ptr());
-    return 0;
-}
-
-int drop_sampler_of(PyObject* self) {
-    nb::inst_ptr<BoundTracer>(self)->drop_sampler();
-    return 0;
-}
-
-PyType_Slot kCycleSlots[] = {{Py_tp_traverse, reinterpret_cast<void*>(visit_sampler)},
-                             {Py_tp_clear, reinterpret_cast<void*>(drop_sampler_of)},
-                             {0, nullptr}};
 
 }  // namespace
 
 void bind_tracer(nb::module_& module) {
-    nb::class_<BoundTracer>(
-        module, "PathTracer", nb::type_slots(kCycleSlots),
-        "Path tracing batch by batch, with the vertices of all paths as arrays, and directions of your own. "
-        "Slow: for trying ideas at small sizes.")
+    nb::class_<BoundTracer>(module, "PathTracer", nb::type_slots(CallerSlots<BoundTracer>::slots),
+                            "Path tracing batch by batch, with the vertices of all paths as arrays, and "
+                            "directions of your own. Slow: for trying ideas at small sizes.")
         .def(
             "__init__",
             [](BoundTracer* self, const BoundScene& scene, const nb::object& sampler, int width, int height,
@@ -183,27 +163,21 @@ void bind_tracer(nb::module_& module) {
             nb::arg("scene"), nb::arg("sampler") = nb::none(), nb::kw_only(), nb::arg("width") = 64,
             nb::arg("height") = 64, nb::arg("seed") = 1, nb::arg("nee") = true, nb::arg("max_depth") = 64,
             nb::arg("roulette") = true, nb::arg("bsdf_fraction") = 0.5f,
-            "sampler: an object with two methods, called with the vertices of a batch, a structured array (n,) as "
-            "trace() returns it, "
-            "whose direction, pdf and incident are not known yet. sample(vertices) returns unit vectors (n, 3), by "
-            "the uniform numbers "
-            "vertices['uniforms'] or others of its own; pdf(vertices, directions) returns their densities per "
-            "steradian (n,).\n\n"
-            "A path takes its direction from the BSDF with probability bsdf_fraction, else from the sampler; both "
-            "densities, and those of "
-            "light samples (nee), are weighed exactly. The mean of the film is right if pdf() is the density of "
-            "sample(), does not change "
-            "within a call of trace(), and together with the BSDF's share is positive wherever light is reflected. "
-            "What it answers at delta lobes is not used. "
-            "Without a sampler it is the method `default`.")
+            "sampler: an object with two methods, called with the vertices of a batch, a structured array (n,) "
+            "as trace() returns it, whose direction, pdf and incident are not known yet. sample(vertices) "
+            "returns unit vectors (n, 3), by the uniform numbers vertices['uniforms'] or others of its own; "
+            "pdf(vertices, directions) returns their densities per steradian (n,).\n\n"
+            "A path takes its direction from the BSDF with probability bsdf_fraction, else from the sampler; "
+            "both densities, and those of light samples (nee), are weighed exactly. The mean of the film is "
+            "right if pdf() is the density of sample(), does not change within a call of trace(), and together "
+            "with the BSDF's share is positive wherever light is reflected. What it answers at delta lobes is "
+            "not used. Without a sampler it is the method `default`.")
         .def("trace", &BoundTracer::trace,
              "Adds a sample to every pixel of the film. Returns the vertices of the new paths, by depth, then by "
-             "pixel, a structured array: "
-             "pixel, sample, depth; position, normal, outgoing, albedo; uniforms; throughput on arrival; direction; "
-             "its pdf per steradian, 0 "
-             "of a delta lobe; incident, the path's estimate of the radiance from there, in which emission that "
-             "light samples find as well has "
-             "the weight of the direction alone. Where a path ends direction, pdf and incident are 0.")
+             "pixel, a structured array: pixel, sample, depth; position, normal, outgoing, albedo; uniforms; "
+             "throughput on arrival; direction; its pdf per steradian, 0 of a delta lobe; incident, the path's "
+             "estimate of the radiance from there, in which emission that light samples find as well has the "
+             "weight of the direction alone. Where a path ends direction, pdf and incident are 0.")
         .def("film", &BoundTracer::film, "Mean radiance, linear RGB. (height, width, 3) float32")
         .def_prop_ro("passes", &BoundTracer::passes, "Samples per pixel.")
         .def_prop_ro("invalid_samples", &BoundTracer::invalid_samples,

@@ -3,6 +3,7 @@
 
 #include <initializer_list>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -39,6 +40,17 @@ using Pairs = nb::ndarray<const float, nb::shape<-1, 2>, nb::c_contig, nb::devic
 inline Vec3f vector_at(const Vectors& vectors, std::size_t i) {
     return {vectors(i, 0), vectors(i, 1), vectors(i, 2)};
 }
+
+/// A method that a module of the package has, written in Python.
+inline auto python_method(const char* module, const char* function) {
+    return [=](const nb::handle& self, const nb::args& args, const nb::kwargs& named) {
+        return nb::module_::import_((std::string("pathlight.") + module).c_str())
+            .attr(function)(self, *args, **named);
+    };
+}
+
+/// What NumPy makes an array of. Throws Error(Input) for another shape; `what` names the numbers.
+std::vector<float> floats_of(const char* what, const nb::object& numbers, const nb::tuple& shape);
 
 /// None, bool, numbers, str, list and dict.
 nb::object from_json(const Json& json);

@@ -6,6 +6,7 @@
 #include <fmt/ranges.h>
 #include <nanobind/stl/string.h>
 
+#include "app/option_table.h"
 #include "python/convert.h"
 
 namespace pl {
@@ -14,7 +15,7 @@ namespace {
 bool is_instance(const nb::handle& value, PyTypeObject& type) { return PyObject_TypeCheck(value.ptr(), &type) != 0; }
 
 /// A value as it is typed on the command line: True: on; (1, 2): 1,2; {'passes': 4}: passes=4.
-std::string option_text(const nb::handle& value) {
+std::string option_text(const nb::handle& value, const char* separator = ",") {
     if (is_instance(value, PyBool_Type)) return value.is(Py_True) ? "on" : "off";
     if (!is_instance(value, PyList_Type) && !is_instance(value, PyTuple_Type) && !is_instance(value, PyDict_Type))
         return nb::str(value).c_str();
@@ -23,7 +24,13 @@ std::string option_text(const nb::handle& value) {
     for (const nb::handle item : value)
         items.push_back(is_dict ? fmt::format("{}={}", option_text(item), option_text(value[item]))
                                 : option_text(item));
-    return fmt::format("{}", fmt::join(items, ","));
+    return fmt::format("{}", fmt::join(items, separator));
+}
+
+/// Such as --why; it has no value.
+bool is_switch(const std::string& name) {
+    return std::ranges::any_of(option_table(),
+                               [&](const OptionSpec& spec) { return spec.value.empty() && spec.name == name; });
 }
 
 }  // namespace
@@ -34,8 +41,10 @@ std::vector<std::string> option_words(const nb::kwargs& options) {
         if (value.is_none()) continue;
         auto name = nb::cast<std::string>(key);
         std::ranges::replace(name, '_', '-');
+        const bool is_size = name == "size" || name == "window";
         const bool is_camera = name == "camera" && is_instance(value, PyDict_Type);
-        words.push_back("--" + name + "=" + (is_camera ? json_text(value) : option_text(value)));
+        const std::string text = is_camera ? json_text(value) : option_text(value, is_size ? "x" : ",");
+        words.push_back(value.is(Py_True) && is_switch(name) ? "--" + name : "--" + name + "=" + text);
     }
     return words;
 }

@@ -16,20 +16,10 @@
 namespace pl {
 namespace {
 
-/// A switch such as why=True has no value.
-std::string without_value(const std::string& word) {
-    const std::size_t name = word.find("=on");
-    if (name == std::string::npos) return word;
-    const auto is_switch = [&](const OptionSpec& spec) {
-        return spec.value.empty() && word.substr(2, name - 2) == spec.name;
-    };
-    return std::ranges::any_of(option_table(), is_switch) ? word.substr(0, name) : word;
-}
-
 nb::list run_program(const nb::args& words, const nb::kwargs& options) {
     std::vector<std::string> arguments;
     for (const nb::handle word : words) arguments.emplace_back(nb::str(word).c_str());
-    for (const std::string& word : option_words(options)) arguments.push_back(without_value(word));
+    std::ranges::copy(option_words(options), std::back_inserter(arguments));
     arguments.insert(arguments.end(), {"--json", "--quiet"});
     CommandLine line = parse_command_line(arguments);
     if (line.answer) throw Error(ErrorKind::Usage, "run: expected a subcommand such as 'bench', which has events");
@@ -71,17 +61,18 @@ nb::object compare_pictures(const PictureArray& picture, const PictureArray& ref
 }  // namespace
 
 void bind_program(nb::module_& module) {
-    module.def("compare", &compare_pictures, nb::arg("picture"), nb::arg("reference"),
-               "Metrics of a film against a reference, (height, width, 3), as `pathlight compare` has them: "
-               "'relmse', 'bias', ...");
-    module.def("run", &run_program, nb::arg("words"), nb::arg("options"),
-               "Runs a subcommand of the program and returns the events of its `--json`, a list of dicts that pandas "
-               "takes.\n\n"
-               "run('bench', 'door', 'cornell', output='results', time_limit=2, seeds=5); run('trace', 'door', "
-               "pixel=(200, 300), sample=0, "
-               "method='reinforcement'); run('inspect', 'door', pixel=(200, 300), output='volume.json', truth=True). "
-               "Options are those of the "
-               "command line, with '_' for '-'. The GIL is released; Ctrl+C ends it.");
+    module.def(
+        "compare", &compare_pictures, nb::arg("picture"), nb::arg("reference"),
+        "Metrics of a film against a reference, (height, width, 3), as `pathlight compare` has them: 'relmse', "
+        "'bias', ...");
+    module.def(
+        "run", &run_program, nb::arg("words"), nb::arg("options"),
+        "Runs a subcommand of the program and returns the events of its `--json`, a list of dicts that pandas "
+        "takes.\n\n"
+        "run('bench', 'door', 'cornell', output='results', time_limit=2, seeds=5); run('trace', 'door', "
+        "pixel=(200, 300), sample=0, method='reinforcement'); run('inspect', 'door', pixel=(200, 300), "
+        "output='volume.json', truth=True). Options are those of the command line, with '_' for '-'. The GIL is "
+        "released; Ctrl+C ends it.");
 }
 
 }  // namespace pl

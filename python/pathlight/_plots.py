@@ -5,12 +5,8 @@ import numpy as np
 PIXELS = 160
 
 
+# Field.plot()
 def plot_hemisphere(field, volume, values="radiance", axes=None, brightest=None):
-    """Draws the hemisphere of a volume as seen along its normal, equal areas of the disc for equal projected solid angles.
-
-    values: "radiance", "probabilities" or "visits". axes: of matplotlib; new ones by default. brightest: value of the brightest
-    color, the largest one by default. Returns the axes.
-    """
     import matplotlib.pyplot as plt
 
     normal, directions = field.normals[volume], field.directions[volume]
@@ -24,6 +20,6 @@ def plot_hemisphere(field, volume, values="radiance", axes=None, brightest=None)
     nearest = (seen @ directions.T).argmax(axis=2)
     disc = np.where(height > 0, getattr(field, values)[volume][nearest], np.nan)
     axes = axes or plt.subplots(figsize=(3, 3))[1]
-    axes.imshow(disc, cmap="inferno", vmin=0, vmax=brightest)
+    axes.imshow(disc, cmap="inferno", vmin=0, vmax=brightest, interpolation="nearest")
     axes.axis("off")
     return axes

@@ -1,15 +1,24 @@
 #!/usr/bin/env bash
-# run_sanitized.sh SOURCE BUILD: builds the program with the address and undefined-behavior sanitizers in BUILD, renders every scene of
-# the project by every method and representation, and opens every file of the corpora. Fails at what the sanitizers find and at exit
-# codes other than 0, and 3 for files.
+# run_sanitized.sh SOURCE BUILD: builds the program and the Python module with the address and undefined-behavior sanitizers in BUILD,
+# renders every scene of the project by every method and representation, opens every file of the corpora, and runs the tests of the
+# module. Fails at what the sanitizers find, at exit codes other than 0, and 3 for files, and at tests that fail.
 set -euo pipefail
 source=$1 build=$2
 
+# The module has the program's objects. What its tests need comes from PyPI.
+python=$build/venv/bin/python module=OFF targets=(pathlight)
+if python3 -m venv "$build/venv" && "$python" -m pip -q --disable-pip-version-check install nanobind numpy pytest; then
+    module=ON targets+=(pathlight_python)
+else
+    echo "the module is left out: no nanobind, numpy and pytest from PyPI"
+fi
+
 # Unity build: as few large sources as there can be, whose templates are compiled once.
 cmake -S "$source" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=RelWithDebInfo -DCMAKE_CXX_FLAGS_RELWITHDEBINFO="-O1 -g1" \
-    -DCMAKE_UNITY_BUILD=ON -DPL_SANITIZE=address,undefined -DPL_CUDA=OFF -DPL_MPI=OFF -DPL_TESTS=OFF >"$build.log" 2>&1 ||
+    -DCMAKE_UNITY_BUILD=ON -DPL_SANITIZE=address,undefined -DPL_CUDA=OFF -DPL_MPI=OFF -DPL_TESTS=OFF \
+    -DPL_PYTHON=$module -DPython_EXECUTABLE="$python" >"$build.log" 2>&1 ||
     { cat "$build.log"; exit 1; }
-cmake --build "$build" --target pathlight -j 2 >>"$build.log" 2>&1 || { tail -50 "$build.log"; exit 1; }
+cmake --build "$build" --target "${targets[@]}" -j 2 >>"$build.log" 2>&1 || { tail -50 "$build.log"; exit 1; }
 
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
@@ -75,4 +84,12 @@ while IFS= read -r -d '' file; do
     render "0 3" cornell "${small[@]}" --resume "$file"
 done < <(files "$corpus/checkpoint")
 echo "$runs runs, $failed failed"
+
+# The interpreter is not sanitized: the sanitizers, and the exceptions that they watch, are loaded before it. What it keeps to its end are no
+# leaks.
+if [[ $module == ON ]]; then
+    LD_PRELOAD="$(c++ -print-file-name=libasan.so) $(c++ -print-file-name=libstdc++.so)" ASAN_OPTIONS=detect_leaks=0 \
+        PYTHONMALLOC=malloc PYTHONPATH="$build/python" PATHLIGHT_PROGRAM="$build/pathlight" \
+        "$python" -m pytest -q "$source/tests/python" || failed=$((failed + 1))
+fi
 exit $((failed > 0))

@@ -14,16 +14,19 @@ class NumpyTable:
     """Forgetful averages of the training samples, smoothed over neighboring cells."""
 
     PRIOR = F(2)
+    PART = 100  # volumes, whose arrays stay in the caches of the processor
 
     def update(self, samples):
-        fresh = samples.counts > 0
-        count = samples.counts.astype(F)
-        mean = samples.sums.astype(F) * F(samples.unit) / np.maximum(count, F(1))
-        share = count / np.maximum(samples.visits.astype(F) + count, F(1))
+        parts = [slice(i, i + self.PART) for i in range(0, len(samples.counts), self.PART)]
+        return np.concatenate([self.update_part(samples, part) for part in parts])
+
+    def update_part(self, samples, part):
+        counts, known, visits = samples.counts[part], samples.radiance[part], samples.visits[part]
+        count = counts.astype(F)
+        mean = samples.sums[part].astype(F) * F(samples.unit) / np.maximum(count, F(1))
+        share = count / np.maximum(visits.astype(F) + count, F(1))
         step = np.minimum(share * (F(4) + share * (F(-6) + share * (F(4) - share))), F(1))
-        radiance = np.where(fresh, samples.radiance + step * (mean - samples.radiance), samples.radiance)
-        visits = samples.visits + samples.counts
-        return self.weights(radiance, visits)
+        return self.weights(np.where(counts > 0, known + step * (mean - known), known), visits + counts)
 
     def weights(self, radiance, visits):
         """Unnormalized probabilities: each cell with the visit-weighted mean of its 3 x 3 neighborhood as prior."""

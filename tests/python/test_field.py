@@ -13,7 +13,7 @@ def learned(door, **options):
         door, method="reinforcement", guiding="always", nee=False, width=64, height=48, volumes=40, bins=64, **options
     )
     session.render(spp=8)
-    return session.field()
+    return session.field
 
 
 @pytest.mark.parametrize("name", REPRESENTATIONS)
@@ -63,7 +63,7 @@ def test_what_is_not_learned_has_no_field(door):
     session = pathlight.Session(door, width=8, height=8)
     session.render(spp=1)
     with pytest.raises(pathlight.UsageError):
-        session.field()
+        session.field
 
 
 def test_the_plot_of_a_hemisphere_shows_every_cell_where_it_lies(door):

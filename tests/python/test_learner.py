@@ -32,7 +32,7 @@ def test_the_samples_of_an_update(door):
         assert samples.floor == pytest.approx(0.1)
         assert (samples.sums[samples.counts == 0] == 0).all()
     # Counts of all updates are the visits of the field.
-    assert sum(s.counts.astype(int).sum() for s in learner.calls) == session.field().visits.sum()
+    assert sum(s.counts.astype(int).sum() for s in learner.calls) == session.field.visits.sum()
     assert (learner.calls[1].visits == learner.calls[0].counts).all()
 
 
@@ -43,7 +43,7 @@ def test_a_learner_that_does_what_the_table_does_gives_its_bits(door, volumes):
         session = pathlight.Session(door, learner=learner, volumes=volumes, **OPTIONS)
         session.render(spp=20)  # beyond the first refinements
         films.append(session.film())
-        field = session.field()
+        field = session.field
     assert films[0].tobytes() == films[1].tobytes()
     assert len(field) > 0
 
@@ -56,7 +56,7 @@ def test_probabilities_are_normalized_and_keep_the_floor(door):
 
     session = pathlight.Session(door, learner=Own(peak), volumes=50, bins=64, **OPTIONS)
     session.render(spp=2)
-    probabilities = session.field().probabilities
+    probabilities = session.field.probabilities
     assert np.allclose(probabilities[:, 7], 0.9 + 0.1 / 64, atol=1e-3)
     assert (probabilities > 0.1 / 64 * 0.99).all()
 
@@ -66,7 +66,7 @@ def test_radiance_is_taken_in_place_of_the_table_s(door):
         door, learner=Own(lambda s: np.full(s.radiance.shape, 3.5), returns="radiance"), volumes=50, bins=64, **OPTIONS
     )
     session.render(spp=2)
-    assert (session.field().radiance == 3.5).all()
+    assert (session.field.radiance == 3.5).all()
 
 
 def nan_somewhere(samples):
@@ -122,7 +122,7 @@ def test_learners_are_for_tables_that_learn(door, options, text):
 
 def test_a_learner_may_not_use_its_session(door):
     session = pathlight.Session(door, learner=Own(lambda s: session.film()), **OPTIONS)
-    with pytest.raises(pathlight.UsageError, match="asks its learner"):
+    with pytest.raises(pathlight.UsageError, match="this session is in use"):
         session.render(spp=1)
 
 

@@ -4,6 +4,7 @@ import gc
 import os
 import signal
 import subprocess
+import sys
 import threading
 import time
 import weakref
@@ -12,8 +13,14 @@ import numpy as np
 import pytest
 
 import pathlight
+from test_scene import arrays
 
 SMALL = dict(width=48, height=32, threads=2)
+
+
+class Uniform:
+    def update(self, samples):
+        return np.ones_like(samples.radiance)
 
 
 def read_pfm(path):
@@ -107,6 +114,80 @@ def test_errors_name_the_option(door, options, text):
     assert text in str(caught.value)
 
 
+def test_sizes_are_pairs_and_learners_may_change(door):
+    """As docs/python.md promises: size=(w, h), a Learner, and session.learner."""
+
+    class Peak(pathlight.Learner):
+        def update(self, samples):
+            weights = np.zeros(samples.radiance.shape)
+            weights[:, 7] = 1
+            return weights
+
+    session = pathlight.Session(door, method="reinforcement", guiding="always", size=(48, 32), volumes=50, bins=64)
+    session.render(spp=1)
+    assert session.learner is None and session.film().shape == (32, 48, 3)
+    peaks = (session.field.probabilities[:, 7] > 0.9).sum()
+    session.learner = learner = Peak()
+    session.render(spp=2)
+    assert session.learner is learner and peaks < 5
+    assert (session.field.probabilities[:, 7] > 0.9).sum() > 40
+    session.learner = None
+    session.render(spp=3)
+    assert session.learner is None
+    session.learner = pathlight.Learner()
+    with pytest.raises(NotImplementedError, match="Learner.update"):
+        session.render(spp=4)
+    with pytest.raises(pathlight.UsageError, match="does not learn"):
+        pathlight.Session(door, **SMALL).learner = Peak()
+
+
+class Bar:
+    """Stands in for tqdm's."""
+
+    made = []
+
+    def __init__(self, **options):
+        self.options, self.shares, self.n = options, [], 0.0
+        Bar.made.append(self)
+
+    def set_description_str(self, text, refresh):
+        self.activity = text
+
+    def set_postfix_str(self, text, refresh):
+        self.detail = text
+
+    def update(self, more):
+        self.n += more
+        self.shares.append(self.n)
+
+
+@pytest.mark.parametrize("tqdm", [Bar, None])
+def test_a_bar_tells_how_far_a_rendering_is(door, monkeypatch, tqdm):
+    from pathlight import _progress
+
+    monkeypatch.setattr(_progress, "tqdm", tqdm)
+    Bar.made = []
+    session = pathlight.Session(door, method="reinforcement", **SMALL)
+    session.render(seconds=1)
+    if tqdm:
+        (bar,) = Bar.made
+        assert bar.options["total"] == 1 and bar.options["leave"] is False
+        assert bar.shares == sorted(bar.shares) and len(bar.shares) >= 2 and bar.shares[-1] == pytest.approx(1)
+        assert bar.activity == "rendering" and " spp" in bar.detail
+    session.render(spp=session.passes)  # nothing to do, no bar
+    assert len(Bar.made) == (tqdm is not None)
+
+
+def test_a_picture_has_the_command_that_renders_it(program, door, tmp_path):
+    scene = pathlight.Scene("door", parameters={"opening": 30})
+    session = pathlight.Session(scene, method="reinforcement", seed=4, **SMALL)
+    session.render(spp=2)
+    session.save(tmp_path / "film.png")
+    text = (tmp_path / "film.png").read_bytes()
+    command = text[text.index(b"pathlight render") :].split(b"\0")[0]
+    assert b"opening=30" in command and b"film.png" in command and b"none.exr" not in command
+
+
 def test_pictures_are_saved(door, tmp_path):
     session = pathlight.Session(door, **SMALL)
     session.render(spp=1)
@@ -147,12 +228,34 @@ def test_other_threads_go_on_and_may_not_use_the_session(door):
     assert session.film().any()
 
 
+def test_a_thousand_sessions_leave_no_objects():
+    """A reference that a session, its field, its learner or its errors kept would leave a thousand blocks or more."""
+    scene, learner = arrays(), Uniform()
+    options = dict(method="reinforcement", width=8, height=8, volumes=10, bins=16, threads=1)
+
+    def use():
+        session = pathlight.Session(scene, learner=learner, **options)
+        session.render(spp=1)
+        session.film(), session.field.radiance, session.statistics(), session.learner, session._repr_png_()
+        for wrong in (lambda: session.halves(), lambda: pathlight.Session(scene, metod="default")):
+            with pytest.raises(pathlight.UsageError):
+                wrong()
+
+    def blocks():
+        gc.collect()
+        return sys.getallocatedblocks()
+
+    for _ in range(20):  # caches of Python and NumPy
+        use()
+    before, references = blocks(), (sys.getrefcount(scene), sys.getrefcount(learner))
+    for _ in range(1000):
+        use()
+    assert (sys.getrefcount(scene), sys.getrefcount(learner)) == references
+    assert blocks() - before < 500
+
+
 def test_sessions_and_learners_are_freed_also_where_they_refer_to_each_other():
     scene = pathlight.Scene("furnace")
-
-    class Uniform:
-        def update(self, samples):
-            return np.ones_like(samples.radiance)
 
     def render():
         learner = Uniform()
@@ -160,7 +263,7 @@ def test_sessions_and_learners_are_freed_also_where_they_refer_to_each_other():
             scene, method="reinforcement", learner=learner, width=16, height=16, volumes=50, bins=16, threads=1
         )
         session.render(spp=1)
-        session.film(), session.field().radiance, session.statistics()
+        session.film(), session.field.radiance, session.statistics()
         learner.session = session
         return weakref.ref(learner)
 

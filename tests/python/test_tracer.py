@@ -112,6 +112,17 @@ def test_wrong_answers_are_refused_and_the_film_stays(door, method, change, mess
     assert tracer.passes == 0 and (tracer.film() == 0).all()
 
 
+def test_a_sampler_may_not_use_its_tracer(door):
+    class Asking(Cosine):
+        def sample(self, vertices):
+            return self.tracer.film()
+
+    sampler = Asking()
+    sampler.tracer = pathlight.PathTracer(door, sampler, **SIZE)
+    with pytest.raises(pathlight.UsageError, match="this tracer is in use"):
+        sampler.tracer.trace()
+
+
 def test_arguments(door):
     with pytest.raises(pathlight.UsageError, match="methods sample"):
         pathlight.PathTracer(door, object())
