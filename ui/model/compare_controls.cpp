@@ -101,16 +101,17 @@ TurnSides CompareControls::wanted_turns() const {
 std::optional<std::array<RunLabel, 2>> CompareControls::labels_in_turns() const {
     if (!link_.turns()) return std::nullopt;
     const TurnSides& turns = *link_.turns();
-    const RenderSettings own = render_.settings();
-    const auto label = [&](MethodId method, const RenderSettings& settings) {
-        return RunLabel{.method = method,
-                        .backend = link_.status().backend,
-                        .next_event = settings.next_event,
-                        .seed = own.seed,
-                        .picture = link_.status().picture,
-                        .details = details_of(settings, method)};
-    };
-    return std::array{label(turns.methods[0], own), label(turns.methods[1], turns.second ? *turns.second : own)};
+    return std::array{now(), label_of(turns.methods[1], turns.second ? *turns.second : render_.settings())};
+}
+
+/// Of a run that renders the picture in the window.
+RunLabel CompareControls::label_of(MethodId method, const RenderSettings& settings) const {
+    return {.method = method,
+            .backend = link_.status().backend,
+            .next_event = settings.next_event,
+            .seed = render_.settings().seed,
+            .picture = link_.status().picture,
+            .details = details_of(settings, method)};
 }
 
 void CompareControls::set_turns(bool on) {

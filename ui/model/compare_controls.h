@@ -40,13 +40,16 @@ public:
     /// another method.
     bool in_turns() const { return link_.turns().has_value(); }
     void set_turns(bool on);
-    /// In turns the labels of both runs.
+    /// In turns the labels of both runs; the first is now().
     std::optional<std::array<RunLabel, 2>> labels_in_turns() const;
+    /// The label of the present run, whose learned field the window shows.
+    RunLabel now() const { return label_of(render_.method(), render_.settings()); }
 
 private:
     CompareInput input() const;
     MethodId other_method() const;
     TurnSides wanted_turns() const;
+    RunLabel label_of(MethodId method, const RenderSettings& settings) const;
 
     RenderLink& link_;
     Messages& messages_;

@@ -68,17 +68,24 @@ bool is_given_up(const PublishedFrame& frame) {
     return guiding && guiding->variance_ratio && !guiding->pays;
 }
 
+/// The name of a run before what is said of its field alone: in turns of two runs that have one each.
+std::string whose(const ViewerModel& model, std::size_t side) {
+    const auto runs = model.comparison().labels_in_turns();
+    const auto has_field = [](const RunLabel& run) { return info_of(run.method).uses_field; };
+    return runs && std::ranges::all_of(*runs, has_field) ? name_of((*runs)[side]) + ": " : "";
+}
+
 /// Whether guiding pays in this picture, as its paths predict: the error of the picture is measured against the baseline elsewhere.
 /// Guiding that pays with a ratio below 1 has found hidden light, see GuidingChoice.
-void add_guiding_badge(BadgeRow& row, const PublishedFrame& frame) {
+void add_guiding_badge(BadgeRow& row, const PublishedFrame& frame, const std::string& run) {
     const auto& guiding = frame.snapshot.guiding;
     if (!guiding || !guiding->variance_ratio) return;
     const std::string shared =
         guiding->unguided_passes > 0 ? fmt::format(": {} by Default", passes_text(guiding->unguided_passes)) : "";
     if (!guiding->pays)
-        row.add("guiding given up" + shared, colors::kWarning);
+        row.add(run + "guiding given up" + shared, colors::kWarning);
     else
-        row.add((*guiding->variance_ratio < 1.0 ? "guiding finds light that Default misses" : "guiding pays") +
+        row.add(run + (*guiding->variance_ratio < 1.0 ? "guiding finds light that Default misses" : "guiding pays") +
                     shared,
                 colors::kGood);
 }
@@ -144,6 +151,16 @@ void add_compare_badges(BadgeRow& row, const ViewerModel& model, const ComparePl
     row.add(fmt::format("compare: {}", label_of(model.comparison().state().mode)), colors::kAccent);
     if (plan.has_heat) row.add_heat_legend(error_map_legend());
     if (!plan.hint.empty()) row.add(plan.hint, colors::kWarning);
+}
+
+/// The run whose field lies over both of two compared pictures.
+void add_field_badge(BadgeRow& row, const ViewerModel& model) {
+    const bool has_lobes = model.selection().inspection() != nullptr || !model.selection().pins().is_empty();
+    const bool is_shown = model.display().cells() || model.flowers().is_shown() || has_lobes;
+    if (!is_shown || model.comparison().state().mode == CompareMode::Off) return;
+    const RunLabel run = model.comparison().now();
+    row.add("lobes and volumes: " + name_of(run),
+            to_imgui_color(run_color(model.comparison().accuracy().runs(), run)));
 }
 
 void add_turns_badge(BadgeRow& row, const ViewerModel& model) {
@@ -222,9 +239,10 @@ void add_state_badges(BadgeRow& row, const ViewerModel& model) {
     if (status.state == WorkerState::Failed) row.add("rendering failed, see the log", colors::kError);
     if (!info_of(model.render().settings().method).learns || !status.field || model.frame() == nullptr) return;
     if (status.field->is_frozen)
-        row.add(fmt::format("learning frozen after {}", passes_text(status.field->passes)), colors::kWarning);
-    else if (status.state == WorkerState::Rendering && !is_given_up(*model.frame()))
-        row.add("learning, " + passes_text(status.field->passes), colors::kGood);
+        row.add(whose(model, 0) + "learning frozen after " + passes_text(status.field->passes), colors::kWarning);
+    else if (status.state == WorkerState::Rendering && model.frame()->snapshot.slot.view == View::Beauty &&
+             !is_given_up(*model.frame()))
+        row.add(whose(model, 0) + "learning, " + passes_text(status.field->passes), colors::kGood);
 }
 
 }  // namespace
@@ -238,8 +256,8 @@ void draw_badges(ViewerModel& model, const Layout& layout, const ComparePlan& pl
     BadgeRow row({view.x + em(0.6f), top}, view.x + view.width - em(0.6f));
     // Compared pictures have labels of their own.
     if (model.frame() != nullptr && plan.tiles.empty()) add_picture_badges(row, model, *model.frame());
-    if (model.frame() != nullptr) add_guiding_badge(row, *model.frame());
-    if (const auto& second = model.link().second_frame()) add_guiding_badge(row, *second);
+    if (model.frame() != nullptr) add_guiding_badge(row, *model.frame(), whose(model, 0));
+    if (const auto& second = model.link().second_frame()) add_guiding_badge(row, *second, whose(model, 1));
     if (model.frame() != nullptr) add_light_badge(row, model.frame()->facts.light);
     if (model.outside().is_outside())
         row.add(fmt::format("outside the room: {} brings you back", info_of(ActionId::CameraHome).keys),
@@ -253,6 +271,7 @@ void draw_badges(ViewerModel& model, const Layout& layout, const ComparePlan& pl
     add_state_badges(row, model);
     if (model.display().cells())
         row.add(fmt::format("volumes {:.0f} %", 100.0f * model.display().cells_opacity()), colors::kText);
+    add_field_badge(row, model);
     if (model.busy() && !model.references().progress() && !model.diagnostics().share())
         row.add("working", colors::kFaint);
     note_place("badges", {view.x, view.y, view.width, row.bottom() - view.y});

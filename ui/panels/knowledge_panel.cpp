@@ -114,8 +114,6 @@ void draw_pixel_tab(ViewerModel& model, const std::optional<PixelPosition>& hove
         return;
     }
     model.window().values_shown = true;
-    if (model.comparison().state().mode != CompareMode::Off)
-        faint_text("Values of the live picture, not of the compared ones.");
     draw_pixel_values(model.display(), *frame, *hovered);
     ImGui::Separator();
     draw_surface(*frame, *hovered);
@@ -156,6 +154,8 @@ void draw_knowledge_panel(ViewerModel& model, const Layout& layout, const std::o
     const bool statistics = research && tabs.add("Statistics");
     const bool log = research && tabs.add("Log");
     tabs.end();
+    if (!material && !effects && !log && model.comparison().state().mode != CompareMode::Off)
+        faint_text(("Of the present run: " + name_of(model.comparison().now())).c_str());
     if (volume) draw_volume_tab(model);
     if (paths) draw_paths_tab(model);
     if (material) draw_material_tab(model);

@@ -86,6 +86,7 @@ TEST_CASE("Compare controls: the run chosen as B goes on beside the present one,
     CHECK(plan().tiles[1].content.frame->settings.field.volumes == 16);
     CHECK_THAT(plan().tiles[0].label, contains("24 volumes"));
     CHECK_THAT(plan().tiles[1].label, contains("16 volumes"));
+    CHECK_THAT(name_of(model.comparison().now()), contains("24 volumes"));
     CHECK(plan().tiles[0].color != plan().tiles[1].color);
     // A run of its own, from nothing on.
     REQUIRE(bench.run_until(model, [&] { return run_of(16)->number != before; }));
