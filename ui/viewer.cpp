@@ -321,6 +321,10 @@ std::optional<PixelPosition> Viewer::hovered_pixel() const {
 void Viewer::answer_requests() {
     WindowRequests& requests = model_.window().requests;
     if (std::exchange(requests.full_screen, false)) display_.toggle_full_screen();
+    if (std::exchange(requests.paste, false)) {
+        const char* const text = ImGui::GetClipboardText();  // null without text
+        model_.files().paste(text != nullptr ? text : "");
+    }
     if (std::exchange(requests.reset, false)) reset_window();
     if (std::exchange(requests.fit_size, false)) {
         const RenderSettings settings = model_.render().settings();

@@ -34,7 +34,7 @@ void CompareLayer::fill(Slot& slot, const TileContent& content) {
         else if (content.what == What::ErrorMap)
             write_error_map(picture, *content.other, out, pitch);
         else
-            write_half_picture(picture, codes(slot.display), out, pitch);
+            write_half_picture(picture, codes(content.is_display ? DisplaySettings{} : slot.display), out, pitch);
         write_cells(slot.overlay, picture.width, picture.height, out, pitch);
     });
     slot.filled = true;

@@ -17,7 +17,7 @@ bool has_pixels(const std::optional<CompareSide>& side) { return side && (side->
 
 TileContent content_of(const CompareSide& side) {
     if (side.frame) return {.what = What::Frame, .picture = {}, .other = {}, .frame = side.frame};
-    return {.what = What::Picture, .picture = side.picture, .other = {}, .frame = {}};
+    return {.what = What::Picture, .picture = side.picture, .other = {}, .frame = {}, .is_display = side.is_display};
 }
 
 /// The room of a picture, and how much of it is shown there.
@@ -69,7 +69,7 @@ void plan_side_by_side(ComparePlan& plan, const CompareSides& sides, const Stage
 
 void plan_difference(ComparePlan& plan, const CompareSides& sides, const Stage& stage) {
     if (!sides.fit_together()) {
-        plan.hint = "the difference needs two stored pictures";
+        plan.hint = "the difference needs two stored pictures of one size with linear values";
         return;
     }
     const TileContent content{
@@ -81,8 +81,8 @@ void plan_difference(ComparePlan& plan, const CompareSides& sides, const Stage& 
 }
 
 bool can_be_scored(const std::optional<CompareSide>& side, const HalfPicture& reference) {
-    return side && !side->is_reference && side->picture && side->picture->width == reference.width &&
-           side->picture->height == reference.height;
+    return side && !side->is_reference && !side->is_display && side->picture &&
+           side->picture->width == reference.width && side->picture->height == reference.height;
 }
 
 void plan_error_map(ComparePlan& plan, const CompareSides& sides, const CompareState& state,
@@ -145,8 +145,11 @@ ComparePlan plan_comparison(const CompareSides& sides, const CompareState& state
 
 std::vector<PicturePlace> picture_places(const ComparePlan& plan, const Rect& image, const Rect& view) {
     if (plan.tiles.empty()) return {{image, common_part(image, view)}};
+    constexpr float kSame = 0.05f;  // places are rounded to pixels
     std::vector<PicturePlace> places;
     for (const CompareTile& tile : plan.tiles) {
+        const float area = tile.place.width * image.height;
+        if (std::fabs(area - tile.place.height * image.width) > kSame * area) continue;
         const bool is_new = places.empty() || places.back().place.x != tile.place.x;
         if (is_new)
             places.push_back({tile.place, tile.clip});
@@ -169,6 +172,7 @@ std::optional<Vec3f> value_of(const PublishedFrame& frame, PixelPosition pixel) 
 
 std::optional<Vec3f> value_of(const TileContent& content, PixelPosition pixel) {
     if (content.frame) return value_of(*content.frame, pixel);
+    if (content.is_display) return std::nullopt;
     const std::size_t index = index_of(pixel, content.picture->width);
     const Vec3f value = pixel_of(*content.picture, index);
     if (content.what == What::Picture) return value;

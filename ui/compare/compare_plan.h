@@ -18,6 +18,7 @@ struct TileContent {
     std::shared_ptr<const HalfPicture> picture;
     std::shared_ptr<const HalfPicture> other;  ///< subtracted, or the reference
     FramePtr frame;
+    bool is_display = false;  ///< of `picture`: OpenedPicture::is_display
 
     friend bool operator==(const TileContent&, const TileContent&) = default;
 };
@@ -45,7 +46,7 @@ struct PicturePlace {
     Rect clip;
 };
 /// Of all pictures of the plan; without any, of the one at `image` in `view`. All show the same scene from the same camera: overlays
-/// and clicks belong to each of them. Two that share a place are one.
+/// and clicks belong to each of them. Two that share a place are one. Without those of other proportions, which were opened from files.
 std::vector<PicturePlace> picture_places(const ComparePlan& plan, const Rect& image, const Rect& view);
 /// Of the picture under the pointer; empty without one.
 Rect place_under(const std::vector<PicturePlace>& places, Vec2f pointer);

@@ -78,8 +78,12 @@ std::optional<CompareSide> reference_side(const CompareInput& input) {
 
 std::optional<CompareSide> file_side(const CompareInput& input) {
     if (input.file == nullptr) return std::nullopt;
-    return CompareSide{
-        .picture = input.file->pixels, .label = input.file->name, .backend = {}, .setup_seconds = {}, .frame = {}};
+    return CompareSide{.is_display = input.file->is_display,
+                       .picture = input.file->pixels,
+                       .label = input.file->name + (input.file->is_display ? "  display values" : ""),
+                       .backend = {},
+                       .setup_seconds = {},
+                       .frame = {}};
 }
 
 std::optional<CompareSide> chosen_side(const CompareInput& input, const SideChoice& choice) {
@@ -93,8 +97,8 @@ std::optional<CompareSide> chosen_side(const CompareInput& input, const SideChoi
 }  // namespace
 
 bool CompareSides::fit_together() const {
-    return a && b && a->picture && b->picture && a->picture->width == b->picture->width &&
-           a->picture->height == b->picture->height;
+    return a && b && a->picture && b->picture && !a->is_display && !b->is_display &&
+           a->picture->width == b->picture->width && a->picture->height == b->picture->height;
 }
 
 void show_newer(CompareSide& side, const FramePtr& frame) {

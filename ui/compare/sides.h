@@ -68,11 +68,13 @@ struct ReferencePicture {
 struct OpenedPicture {
     std::shared_ptr<const HalfPicture> pixels;
     std::string name;
+    bool is_display = false;  ///< 8-bit display values, decoded: shown as they are, and not measured
 };
 
 struct CompareSide {
     std::uint64_t run = 0;  ///< 0: the reference, or a file
     bool is_reference = false;
+    bool is_display = false;                     ///< OpenedPicture::is_display
     std::shared_ptr<const HalfPicture> picture;  ///< null if none is kept at the cursor
     std::string label;                           ///< method, back end, samples, seconds; or the missing picture
     std::uint32_t color = 0xffe4e6eau;           ///< of the method, opaque ARGB
@@ -88,7 +90,7 @@ struct CompareSides {
     std::optional<CompareSide> a;
     std::optional<CompareSide> b;
 
-    /// Both pictures have the same size.
+    /// Both pictures have the same size, and linear values.
     bool fit_together() const;
 };
 

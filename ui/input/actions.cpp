@@ -147,6 +147,7 @@ std::vector<Action> actions_after_methods() {
          "copy the picture as it is seen, with all over it",
          {sign(SDLK_c, kCtrlShift)}},
         {CopyCommand, Group::File, "Ctrl+C", "copy as command line", {sign(SDLK_c, kCtrl)}},
+        {Paste, Group::File, "Ctrl+V", "open the copied file or picture", {sign(SDLK_v, kCtrl)}},
         {Quit, Group::File, "Ctrl+Q", "quit", {sign(SDLK_q, kCtrl)}},
 
         {Help, Group::Help, "F1 or ?", "keys and mouse", {at(SDL_SCANCODE_F1), at(SDL_SCANCODE_SLASH, kShift)}},
@@ -175,9 +176,8 @@ constexpr std::array kMouseActions{
     MouseAction{"wheel on plot", "zoom; dragging pans, a double click fits"},
     MouseAction{"drag on axis", "pictures at equal time, at equal error; right click: off"},
     MouseAction{"drag on border", "size of the panel; a double click makes it automatic, the arrow folds it"},
-    MouseAction{
-        "drop a file",
-        "open an .obj, .gltf, .glb, .xml or .json scene, or a saved .field; compare with an .exr, .pfm or .hdr"},
+    MouseAction{"drop a file",
+                "open an .obj, .gltf, .glb, .xml or .json scene, or a saved .field; compare with a picture"},
 };
 
 }  // namespace

@@ -65,6 +65,7 @@ enum class ActionId {
     SaveField,
     LoadField,
     CopyCommand,
+    Paste,
     TracePaths,
     ShowGain,
     PinVolume,

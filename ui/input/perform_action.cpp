@@ -160,6 +160,7 @@ bool perform_display_action(ViewerModel& model, ActionId id) {
     case ActionId::ScreenshotWithPanels: window.requests.window_shot = true; return true;
     case ActionId::SaveView: window.requests.view_shot = true; return true;
     case ActionId::CopyView: window.requests.view_copy = true; return true;
+    case ActionId::Paste: window.requests.paste = true; return true;
     case ActionId::Quit: window.requests.quit = true; return true;
     default: return false;
     }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <chrono>
 #include <optional>
 #include <thread>
@@ -11,9 +12,11 @@
 
 #include <fmt/format.h>
 
+#include "core/io/decode_image.h"
 #include "core/io/field_file.h"
 #include "core/io/files.h"
 #include "core/io/scene_materials.h"
+#include "core/io/texture_file.h"
 #include "ui/model/file_names.h"
 #include "ui/model/programs.h"
 
@@ -22,6 +25,60 @@ namespace {
 
 constexpr double kSaveSeconds = 3.0;  ///< longest wait for the values of a picture from a failed render thread
 constexpr int kLastSaveMs = 3000;     ///< the same when the window closes
+
+/// The file of a picture on its way to the clipboard or from it.
+struct ClipboardFile {
+    std::filesystem::path path =
+        std::filesystem::temp_directory_path() / fmt::format("pathlight-clipboard-{}.png", getpid());
+
+    ClipboardFile() = default;
+    ClipboardFile(const ClipboardFile&) = delete;
+    ClipboardFile& operator=(const ClipboardFile&) = delete;
+    ~ClipboardFile() {
+        std::error_code ignored;
+        std::filesystem::remove(path, ignored);
+    }
+};
+
+/// Linear values, or those that a picture of display values decodes to.
+OpenedPicture read_picture(const std::filesystem::path& path) {
+    const std::string bytes = read_file(path);
+    OpenedPicture picture{.pixels = {}, .name = path.filename().string()};
+    if (is_linear(image_kind_of(bytes, path))) {
+        const LinearImage image = decode_linear(bytes, {.path = path});
+        picture.pixels = std::make_shared<const HalfPicture>(half_picture(image.width, image.height, image.pixels));
+        return picture;
+    }
+    std::vector<std::string> warnings;
+    const DecodedImage image = decode_image(bytes, path, warnings);
+    std::vector<Vec3f> pixels;
+    pixels.reserve(image.texels.size());
+    for (const auto& texel : image.texels)
+        pixels.emplace_back(decode_srgb(texel.r), decode_srgb(texel.g), decode_srgb(texel.b));
+    picture.pixels = std::make_shared<const HalfPicture>(half_picture(image.width, image.height, pixels));
+    picture.is_display = true;
+    return picture;
+}
+
+/// The path that file managers and terminals put on the clipboard: the first line, perhaps quoted or a file URI. Empty if it is none of a
+/// file.   [RFC 8089]
+std::filesystem::path copied_path(std::string text) {
+    constexpr std::string_view kScheme = "file://";
+    text = text.substr(0, text.find_first_of("\r\n"));
+    if (text.size() > 1 && text.front() == text.back() && (text.front() == '\'' || text.front() == '"'))
+        text = text.substr(1, text.size() - 2);
+    if (text.starts_with(kScheme)) {
+        text.erase(0, kScheme.size());
+        for (std::size_t at = 0; (at = text.find('%', at)) < text.size(); ++at) {
+            unsigned code = 0;
+            const char* const digits = text.data() + at + 1;
+            if (at + 2 < text.size() && std::from_chars(digits, digits + 2, code, 16).ptr == digits + 2)
+                text.replace(at, 3, 1, static_cast<char>(code));
+        }
+    }
+    std::error_code ignored;
+    return std::filesystem::is_regular_file(text, ignored) ? text : "";
+}
 
 }  // namespace
 
@@ -119,16 +176,9 @@ void PictureFiles::save_window(ByteImage pixels, std::filesystem::path path) {
 
 void PictureFiles::copy_view(ByteImage pixels) {
     jobs_.push([this, shared = std::make_shared<ByteImage>(std::move(pixels))]() -> Jobs::Report {
-        const std::filesystem::path path =
-            std::filesystem::temp_directory_path() / fmt::format("pathlight-copied-{}.png", getpid());
-        save_window_pixels(path, *shared);
-        try {
-            copy_picture(path);
-        } catch (...) {
-            std::filesystem::remove(path);
-            throw;
-        }
-        std::filesystem::remove(path);
+        const ClipboardFile file;
+        save_window_pixels(file.path, *shared);
+        copy_picture(file.path);
         return [this] { messages_.say(MessageLevel::Info, "copied the picture as it is seen"); };
     });
 }
@@ -212,27 +262,42 @@ void SavedFields::adopt(const std::shared_ptr<LearnedField>& field, const std::f
 }
 
 void Files::open(const std::string& file) {
-    const std::filesystem::path path = file;
-    const std::string suffix = path.extension().string();
-    const auto is_picture = [&](ImageKind kind) { return suffix == "." + std::string(name_of(kind)); };
+    constexpr std::array kPictures{".exr", ".pfm", ".hdr", ".png", ".jpg", ".jpeg", ".tga", ".bmp"};
+    const std::string suffix = suffix_of(file);
     if (suffix == kFieldSuffix)
         fields_.load(file);
-    else if (std::ranges::any_of(std::array{ImageKind::Exr, ImageKind::Pfm, ImageKind::Hdr}, is_picture))
-        open_picture(path);
+    else if (std::ranges::find(kPictures, suffix) != kPictures.end())
+        open_picture(file);
     else
         scene_.open(file);
 }
 
 void Files::open_picture(const std::filesystem::path& path) {
-    jobs_.push([this, path]() -> Jobs::Report {
-        const LinearImage image = read_linear(path);
-        OpenedPicture picture{
-            .pixels = std::make_shared<const HalfPicture>(half_picture(image.width, image.height, image.pixels)),
-            .name = path.filename().string()};
-        return [this, picture] {
-            comparison_.open_picture(picture);
-            messages_.say(MessageLevel::Info, fmt::format("{} is compared as B", picture.name));
-        };
+    jobs_.push(
+        [this, path]() -> Jobs::Report { return [this, picture = read_picture(path)] { compare_with(picture); }; });
+}
+
+void Files::compare_with(const OpenedPicture& picture) {
+    comparison_.open_picture(picture);
+    messages_.say(MessageLevel::Info,
+                  picture.name + (picture.is_display
+                                      ? " is compared as B, by eye: its colors are those of a screen, clipped and "
+                                        "without linear values. Exposure does not change them"
+                                      : " is compared as B"));
+}
+
+void Files::paste(const std::string& text) {
+    if (const std::filesystem::path path = copied_path(text); !path.empty()) {
+        open(path.string());
+        return;
+    }
+    jobs_.push([this]() -> Jobs::Report {
+        const ClipboardFile file;
+        if (!paste_picture(file.path))
+            throw Error(ErrorKind::Input, "the clipboard has neither the path of a file nor a picture");
+        OpenedPicture picture = read_picture(file.path);
+        picture.name = "the copied picture";
+        return [this, picture] { compare_with(picture); };
     });
 }
 

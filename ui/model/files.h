@@ -110,15 +110,18 @@ public:
     const PictureFiles& pictures() const { return pictures_; }
     SavedFields& fields() { return fields_; }
 
-    /// A scene; a learned field of the scene in the window: a file that ends in kFieldSuffix; or a picture with linear values, which is
-    /// compared with the one in the window.
+    /// A scene; a learned field of the scene in the window: a file that ends in kFieldSuffix; or a picture, which is compared with the one
+    /// in the window.
     void open(const std::string& file);
+    /// Opens the file whose path or URI is the text of the clipboard, else the picture there.
+    void paste(const std::string& text);
 
     /// Begins to write the materials of the window, for --materials. Returns the name of the file.
     std::filesystem::path save_materials();
 
 private:
     void open_picture(const std::filesystem::path& path);
+    void compare_with(const OpenedPicture& picture);
 
     Messages& messages_;
     Jobs& jobs_;

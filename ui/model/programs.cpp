@@ -1,5 +1,6 @@
 #include "ui/model/programs.h"
 
+#include <array>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
@@ -7,6 +8,7 @@
 
 #include <fcntl.h>
 #include <spawn.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -23,11 +25,12 @@ namespace {
 /// The files of a program, which are not those of this one.
 class Streams {
 public:
-    explicit Streams(const std::filesystem::path& input) {
+    Streams(const std::filesystem::path& input, const std::filesystem::path& output) {
+        constexpr int kWrites = O_WRONLY | O_CREAT | O_TRUNC;
         posix_spawn_file_actions_init(&actions_);
         posix_spawn_file_actions_addopen(&actions_, STDIN_FILENO, input.c_str(), O_RDONLY, 0);
-        for (const int output : {STDOUT_FILENO, STDERR_FILENO})
-            posix_spawn_file_actions_addopen(&actions_, output, "/dev/null", O_WRONLY, 0);
+        posix_spawn_file_actions_addopen(&actions_, STDOUT_FILENO, output.c_str(), kWrites, S_IRUSR | S_IWUSR);
+        posix_spawn_file_actions_addopen(&actions_, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
     }
     ~Streams() { posix_spawn_file_actions_destroy(&actions_); }
     Streams(const Streams&) = delete;
@@ -43,12 +46,23 @@ std::string text_of(const std::filesystem::path& program, const std::vector<std:
     return fmt::format("{} {}", program.filename().string(), fmt::join(arguments, " "));
 }
 
-/// Of a desktop of Wayland if this is one; each of them takes the picture from its standard input.
-std::vector<std::pair<std::string, std::vector<std::string>>> copying_programs() {
-    const std::pair<std::string, std::vector<std::string>> wayland{"wl-copy", {"--type", "image/png"}};
-    const std::pair<std::string, std::vector<std::string>> x11{"xclip",
-                                                               {"-selection", "clipboard", "-t", "image/png"}};
-    return std::getenv("WAYLAND_DISPLAY") != nullptr ? std::vector{wayland, x11} : std::vector{x11, wayland};
+/// A program of the clipboard, with its arguments for pictures.
+struct ClipboardProgram {
+    std::filesystem::path program;
+    std::vector<std::string> arguments;
+};
+
+/// The installed one, that of Wayland first on its desktops: takes a picture from its standard input, or writes it to its output.
+ClipboardProgram clipboard_program(bool pastes) {
+    const ClipboardProgram wayland{find_program(pastes ? "wl-paste" : "wl-copy"), {"--type", "image/png"}};
+    const ClipboardProgram x11{find_program("xclip"),
+                               {"-selection", "clipboard", "-t", "image/png", pastes ? "-o" : "-i"}};
+    const bool is_wayland = std::getenv("WAYLAND_DISPLAY") != nullptr;
+    for (const ClipboardProgram& found : is_wayland ? std::array{wayland, x11} : std::array{x11, wayland})
+        if (!found.program.empty()) return found;
+    throw Error(ErrorKind::Unavailable,
+                fmt::format("a picture cannot be {}: install wl-clipboard (Wayland) or xclip (X11)",
+                            pastes ? "pasted" : "copied"));
 }
 
 }  // namespace
@@ -65,13 +79,13 @@ std::filesystem::path find_program(std::string_view name) {
 }
 
 void run_program(const std::filesystem::path& program, const std::vector<std::string>& arguments,
-                 const std::filesystem::path& input) {
+                 const std::filesystem::path& input, const std::filesystem::path& output) {
     std::string name = program.string();
     std::vector<std::string> texts = arguments;
     std::vector<char*> argv{name.data()};
     for (std::string& text : texts) argv.push_back(text.data());
     argv.push_back(nullptr);
-    const Streams streams(input);
+    const Streams streams(input, output);
     pid_t child = 0;
     if (const int error = posix_spawn(&child, name.c_str(), streams.get(), nullptr, argv.data(), environ); error != 0)
         throw Error(ErrorKind::Unavailable, fmt::format("{}: {}", text_of(program, arguments), std::strerror(error)));
@@ -97,10 +111,19 @@ std::string make_film(const std::filesystem::path& folder, int frames_per_second
 }
 
 void copy_picture(const std::filesystem::path& png) {
-    for (const auto& [name, arguments] : copying_programs())
-        if (const std::filesystem::path program = find_program(name); !program.empty())
-            return run_program(program, arguments, png);
-    throw Error(ErrorKind::Unavailable, "a picture cannot be copied: install wl-clipboard (Wayland) or xclip (X11)");
+    const ClipboardProgram clipboard = clipboard_program(false);
+    run_program(clipboard.program, clipboard.arguments, png);
+}
+
+bool paste_picture(const std::filesystem::path& png) {
+    const ClipboardProgram clipboard = clipboard_program(true);
+    try {
+        run_program(clipboard.program, clipboard.arguments, "/dev/null", png);
+    } catch (const Error&) {
+        return false;  // the clipboard has something else
+    }
+    std::error_code ignored;
+    return std::filesystem::file_size(png, ignored) > 0 && !ignored;
 }
 
 }  // namespace pl::ui

@@ -58,6 +58,7 @@ struct WindowRequests {
     bool window_shot = false;
     bool view_shot = false;  ///< the picture with everything that is drawn over it
     bool view_copy = false;  ///< the same to the clipboard
+    bool paste = false;      ///< what is on the clipboard
     bool quit = false;
     bool reset = false;     ///< everything as at a first start
     bool zoom = false;      ///< 1:1 around the pointer, or the whole picture

@@ -57,6 +57,11 @@ TEST_CASE("Plan: flip shows one at a time, side by side both whole, each under i
     REQUIRE(places.size() == 2);
     for (const std::size_t tile : {0u, 1u})
         CHECK(place_under(places, both.tiles[tile].place.center()).x == both.tiles[tile].place.x);
+    // A picture of another shape, from a file, shows another view: nothing of this one lies over it.
+    CHECK(picture_places(both, {0.0f, 0.0f, 100.0f, 50.0f}, kView).size() == 2);
+    ComparePlan other = both;
+    other.tiles[1].place.height *= 0.5f;
+    CHECK(picture_places(other, {0.0f, 0.0f, 100.0f, 50.0f}, kView).size() == 1);
     CHECK(place_under(places, {kView.x + 1.0f, kView.y + 1.0f}).width == 0.0f);
 }
 
@@ -77,6 +82,23 @@ TEST_CASE("Plan: difference and error map need pictures of the same size, the ma
     CHECK(plan_comparison(sides, state_of(CompareMode::ErrorMap), &reference, kView).tiles.empty());
     sides.b->picture = plain_picture(0x3c00, 8, 4);
     CHECK(plan_comparison(sides, state_of(CompareMode::Difference), nullptr, kView).tiles.empty());
+}
+
+TEST_CASE("Plan: a picture of display values is shown as it is, and neither measured nor subtracted") {
+    const Runs runs = two_runs();
+    CompareSides sides = resolve_sides(input_of(runs), {});
+    sides.b->is_display = true;
+    const ComparePlan split = plan_comparison(sides, state_of(CompareMode::Split), nullptr, kView);
+    REQUIRE(split.tiles.size() == 2);
+    CHECK_FALSE(split.tiles[0].content.is_display);
+    CHECK(split.tiles[1].content.is_display);
+    CHECK(value_of(split.tiles[0].content, {0, 0}));
+    CHECK_FALSE(value_of(split.tiles[1].content, {0, 0}));
+    const ComparePlan difference = plan_comparison(sides, state_of(CompareMode::Difference), nullptr, kView);
+    CHECK(difference.tiles.empty());
+    CHECK_THAT(difference.hint, contains("linear values"));
+    const ReferencePicture reference = reference_of();
+    CHECK(plan_comparison(sides, state_of(CompareMode::ErrorMap), &reference, kView).tiles.size() == 1);
 }
 
 namespace {

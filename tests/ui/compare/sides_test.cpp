@@ -57,6 +57,11 @@ TEST_CASE("Sides: the picture of a file is either side, and the other one is a r
     CHECK(resolve_sides(input, state).b->picture == opened.pixels);
     CHECK(resolve_sides(input, state).b->label == "other.exr");
     CHECK(resolve_sides(input, state).fit_together());
+    const OpenedPicture clipped{.pixels = opened.pixels, .name = "other.png", .is_display = true};
+    input.file = &clipped;
+    CHECK(resolve_sides(input, state).b->label == "other.png  display values");
+    CHECK_FALSE(resolve_sides(input, state).fit_together());
+    input.file = &opened;
     std::swap(state.a, state.b);
     CHECK(resolve_sides(input, state).a->label == "other.exr");
     CHECK(resolve_sides(input, state).b->run == 2);

@@ -7,6 +7,8 @@
 #include "core/io/image.h"
 #include "tests/support/catch.hpp"
 #include "tests/ui/file_bench.h"
+#include "tests/ui/installed_programs.h"
+#include "ui/compare/half_image.h"
 
 using namespace pl;
 using namespace pl::ui;
@@ -51,6 +53,58 @@ TEST_CASE(
     model.files().open(bench.folder.write("bad.pfm", "PF").string());
     CHECK(bench.run_until(model, [&] { return told(model, "bad.pfm"); }));
     CHECK(model.comparison().opened()->name == "other.exr");
+}
+
+TEST_CASE("Picture files: one of display values is compared as it is, and has no linear values") {
+    FileBench bench;
+    ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
+    REQUIRE(bench.run_until(model, [&] { return has_frame(model); }));
+    const std::filesystem::path path = bench.folder.path() / "other.PNG";
+    write_png8(path, {.width = 2, .height = 1, .rgb = {0, 128, 255, 1, 2, 3}});
+    model.files().open(path.string());
+    REQUIRE(bench.run_until(model, [&] { return told(model, "other.PNG is compared as B, by eye"); }));
+    const OpenedPicture& opened = *model.comparison().opened();
+    CHECK(opened.is_display);
+    // The codes of the file come back at any exposure of the window.
+    const HalfCodes codes{DisplaySettings{}};
+    CHECK(codes.pixel(opened.pixels->rgb.data()) == 0xff0080ffu);
+    CHECK(codes.pixel(opened.pixels->rgb.data() + 3) == 0xff010203u);
+}
+
+TEST_CASE("Picture files: the path of a file is pasted as text, URI or in quotes, else the copied picture") {
+    InstalledPrograms installed;
+    FileBench bench;
+    ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
+    REQUIRE(bench.run_until(model, [&] { return has_frame(model); }));
+    const auto file = [&](const std::string& name) {
+        const std::filesystem::path path = bench.folder.path() / name;
+        write_exr(path, {.width = 1, .height = 1, .pixels = {glm::vec3(0.5f)}});
+        return path.string();
+    };
+    const auto compares = [&](const std::string& name) {
+        return bench.run_until(model, [&] {
+            return model.comparison().opened() != nullptr && model.comparison().opened()->name == name;
+        });
+    };
+    model.files().paste(file("plain.exr") + "\n");
+    CHECK(compares("plain.exr"));
+    model.files().paste("'" + file("in quotes.exr") + "'");
+    CHECK(compares("in quotes.exr"));
+    (void)file("50 %.exr");
+    model.files().paste("file://" + bench.folder.path().string() + "/50%20%25.exr\r\nfile:///other.exr\r\n");
+    CHECK(compares("50 %.exr"));
+    model.files().paste("pathlight render cornell");
+    CHECK(bench.run_until(model, [&] { return told(model, "a picture cannot be pasted: install"); }));
+    installed.add("xclip", "exit 1");
+    model.files().paste("");
+    CHECK(bench.run_until(model,
+                          [&] { return told(model, "the clipboard has neither the path of a file nor a picture"); }));
+    CHECK(compares("50 %.exr"));
+    const std::filesystem::path png = bench.folder.path() / "source.png";
+    write_png8(png, {.width = 1, .height = 1, .rgb = {10, 20, 30}});
+    installed.add("xclip", "cat " + png.string());
+    model.files().paste("");
+    CHECK(compares("the copied picture"));
 }
 
 TEST_CASE("Saved fields: a learned field is saved, and rendering continues from it") {

@@ -25,6 +25,9 @@ TEST_CASE("Programs: found in PATH, run with a file as input, and their failure 
     const std::filesystem::path output = installed.folder.path() / "out put";
     run_program(find_program("reader"), {output.string()}, input);
     CHECK(read_text_file(output) == "some bytes");
+    installed.add("writer", "cat");
+    run_program(find_program("writer"), {}, input, installed.folder.path() / "written");
+    CHECK(read_text_file(installed.folder.path() / "written") == "some bytes");
     CHECK_THROWS_WITH(run_program(find_program("failing"), {"-x", "y"}),
                       "failing -x y: expected exit status 0, got 3");
     CHECK_THROWS_AS(run_program(installed.folder.path() / "no-program", {}), Error);
@@ -59,4 +62,23 @@ TEST_CASE("Programs: a picture is copied by the program of the desktop, and with
     copy_picture(picture);
     ::unsetenv("WAYLAND_DISPLAY");
     CHECK(copied("wl-copy") == "pixels");
+}
+
+TEST_CASE(
+    "Programs: a picture is pasted by the program of the desktop; an empty clipboard and other content are none") {
+    InstalledPrograms installed;
+    const std::filesystem::path png = installed.folder.path() / "pasted.png";
+    CHECK_THROWS_WITH(paste_picture(png),
+                      "a picture cannot be pasted: install wl-clipboard (Wayland) or xclip (X11)");
+    ::unsetenv("WAYLAND_DISPLAY");
+    installed.add("wl-paste", "echo \"$@\"");
+    REQUIRE(paste_picture(png));
+    CHECK(read_text_file(png) == "--type image/png\n");
+    installed.add("xclip", "echo \"$@\"");
+    REQUIRE(paste_picture(png));
+    CHECK(read_text_file(png) == "-selection clipboard -t image/png -o\n");
+    installed.add("xclip", "exit 0");
+    CHECK_FALSE(paste_picture(png));
+    installed.add("xclip", "echo pixels; exit 1");
+    CHECK_FALSE(paste_picture(png));
 }
