@@ -198,11 +198,12 @@ void Denoiser::smooth(const FirstHits& hits, int step, float tolerance) {
     });
 }
 
-std::span<const Vec3f> Denoiser::denoise(std::span<const Vec3f> pixels, const FirstHits& hits, std::uint32_t passes) {
+std::span<const Vec3f> Denoiser::denoise(std::span<const Vec3f> pixels, const FirstHits& hits, std::uint32_t passes,
+                                         const std::atomic<bool>* stop) {
     resize(hits.count());
     divide_by_albedo(pixels, hits);
     const float noise = 1.5f / std::sqrt(static_cast<float>(std::max(passes, 1u)));
-    for (int level = 0; level < kLevels; ++level) {
+    for (int level = 0; level < kLevels && (stop == nullptr || !*stop); ++level) {
         // Light whose tone differs by more has no weight: noise falls with samples, and with levels.
         smooth(hits, 1 << level, std::ldexp(2.0f, -level) + noise);
         std::swap(now_, next_);

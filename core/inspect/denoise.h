@@ -15,8 +15,9 @@ namespace pl {
 class Denoiser {
 public:
     /// `pixels` are means of `passes` samples. Pixels that are NaN or infinite, and those that see no surface, stay as they are. Valid
-    /// until the next call.
-    std::span<const Vec3f> denoise(std::span<const Vec3f> pixels, const FirstHits& hits, std::uint32_t passes);
+    /// until the next call. Incomplete if `stop` is set meanwhile.
+    std::span<const Vec3f> denoise(std::span<const Vec3f> pixels, const FirstHits& hits, std::uint32_t passes,
+                                   const std::atomic<bool>* stop = nullptr);
 
 private:
     using Plane = std::vector<float>;  ///< [pixel]

@@ -41,7 +41,8 @@ void find_slopes(FirstHits& hits) {
 
 }  // namespace
 
-FirstHits find_first_hits(const HostScene& scene, const CameraDescription& camera, int width, int height) {
+FirstHits find_first_hits(const HostScene& scene, const CameraDescription& camera, int width, int height,
+                          const std::atomic<bool>* stop) {
     FirstHits hits;
     hits.width = width;
     hits.height = height;
@@ -64,6 +65,7 @@ FirstHits find_first_hits(const HostScene& scene, const CameraDescription& camer
              static_cast<float>(surface.point.material));
     };
     for_chunks(static_cast<std::uint32_t>(height), kRowsAtOnce, usable_threads(), [&](IndexRange rows) {
+        if (stop != nullptr && *stop) return;
         for (std::uint32_t y = rows.begin; y < rows.end; ++y)
             for (int x = 0; x < width; ++x)
                 find(static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x),

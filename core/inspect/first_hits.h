@@ -1,6 +1,7 @@
 // The first surfaces that a camera sees, at the centers of pixels: what a filter of a noisy picture goes by.
 #pragma once
 
+#include <atomic>
 #include <memory>
 #include <vector>
 
@@ -22,7 +23,8 @@ struct FirstHits {
     std::size_t count() const { return static_cast<std::size_t>(width) * static_cast<std::size_t>(height); }
 };
 
-/// Of a pinhole in the place of the camera's lens.
-FirstHits find_first_hits(const HostScene& scene, const CameraDescription& camera, int width, int height);
+/// Of a pinhole in the place of the camera's lens. Incomplete if `stop` is set meanwhile.
+FirstHits find_first_hits(const HostScene& scene, const CameraDescription& camera, int width, int height,
+                          const std::atomic<bool>* stop = nullptr);
 
 }  // namespace pl

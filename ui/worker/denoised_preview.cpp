@@ -7,16 +7,20 @@
 
 namespace pl::ui {
 
-void DenoisedPreview::add_to(PublishedFrame& frame, const Session& session) {
+bool DenoisedPreview::add_to(PublishedFrame& frame, const Session& session, const StopFlag& stop) {
     const Snapshot& snapshot = frame.snapshot;
-    if (snapshot.slot.view != View::Beauty || snapshot.passes >= kEnoughPasses || frame.backend.name != "cpu") return;
+    if (snapshot.slot.view != View::Beauty || snapshot.passes >= kEnoughPasses || frame.backend.name != "cpu")
+        return true;
     const Stopwatch watch;
     const Key key{session.film_origin(snapshot.slot).generation, frame.scene, snapshot.width, snapshot.height};
     if (!(key == key_)) {
-        hits_ = find_first_hits(*frame.scene, snapshot.camera, key.width, key.height);
+        key_ = {};
+        hits_ = find_first_hits(*frame.scene, snapshot.camera, key.width, key.height, &stop);
+        if (stop) return false;
         key_ = key;
     }
-    const std::span<const Vec3f> smoothed = denoiser_.denoise(snapshot.pixels, hits_, snapshot.passes);
+    const std::span<const Vec3f> smoothed = denoiser_.denoise(snapshot.pixels, hits_, snapshot.passes, &stop);
+    if (stop) return false;
     const FrameStyle style = frame_style(snapshot.slot.view, frame.display, frame.range);
     const ToneTable codes(style.curve);
     auto pixels = std::make_shared<std::vector<std::uint32_t>>(smoothed.size());
@@ -25,6 +29,7 @@ void DenoisedPreview::add_to(PublishedFrame& frame, const Session& session) {
     frame.denoised = {.width = key.width, .height = key.height, .pixels = [pixels] { return pixels->data(); }};
     frame.denoise_seconds = watch.seconds();
     pixel_seconds_ = frame.denoise_seconds / static_cast<double>(hits_.count());
+    return true;
 }
 
 }  // namespace pl::ui

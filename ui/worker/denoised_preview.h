@@ -14,8 +14,8 @@ public:
     static constexpr std::uint32_t kEnoughPasses = 16;
 
     /// Gives a frame with values the denoised display of its picture; nothing to views other than the picture. On devices neither: they
-    /// have the samples before the processor has traced the first surfaces.
-    void add_to(PublishedFrame& frame, const Session& session);
+    /// have the samples before the processor has traced the first surfaces. False if `stop` was set meanwhile: then the frame is as before.
+    bool add_to(PublishedFrame& frame, const Session& session, const StopFlag& stop);
     /// Seconds that a frame of this many pixels takes, as the last one did.
     double seconds_for(int width, int height) const { return pixel_seconds_ * width * height; }
 

@@ -12,6 +12,7 @@ std::uint64_t Inbox::submit_together(std::vector<WorkerEdit> edits) {
     const std::lock_guard lock(mutex_);
     for (WorkerEdit& edit : edits) edits_.push(std::move(edit));
     interrupt(Interrupts::Pass);
+    has_edit_ = may_be_interrupted_;
     return ++requests_.generation;
 }
 
@@ -53,6 +54,7 @@ bool Inbox::take(Requests& now, std::vector<WorkerEdit>& edits, const std::funct
     edits = edits_.take();
     requests_.once = {};
     stop_ = false;
+    has_edit_ = false;
     return true;
 }
 
@@ -65,6 +67,7 @@ void Inbox::begin_pass(bool may_be_interrupted, const Requests& now, const std::
                          requests_.backend != backend ||
                          ((other_frame || requests_.volume != now.volume) && film_has_pass_);
     if (may_be_interrupted && is_late) stop_ = true;
+    has_edit_ = may_be_interrupted && !edits_.empty();
 }
 
 void Inbox::settle_backend(const std::string& asked, const std::string& in_use) {

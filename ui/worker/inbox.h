@@ -93,6 +93,8 @@ public:
     void begin_pass(bool may_be_interrupted, const Requests& now, const std::string& backend);
     /// Raised while a pass has to stop.
     const StopFlag* stop_flag() const { return &stop_; }
+    /// Raised while it has to stop for an edit: frames of the state before are late.
+    const StopFlag* edit_flag() const { return &has_edit_; }
     /// Whether the film under way has a complete pass.
     void note_film(bool has_pass) { film_has_pass_.store(has_pass, std::memory_order_relaxed); }
     /// The request for this back end is settled with the one in use now; a newer request remains.
@@ -109,6 +111,7 @@ private:
     bool may_be_interrupted_ = false;
     std::atomic<bool> film_has_pass_{false};
     StopFlag stop_{false};
+    StopFlag has_edit_{false};
 };
 
 }  // namespace pl::ui

@@ -282,7 +282,10 @@ void RenderLoop::publish() {
     frame->preview = preview_.now();
     frame->side = turns_ ? turns_->side() : 0;
     frame->backend.name = backends_.current();
-    if (denoises) denoised_.add_to(*frame, *session_);
+    if (denoises && !denoised_.add_to(*frame, *session_, *inbox_.edit_flag())) {
+        frames_.ask();  // the next frame takes the place of this one
+        return;
+    }
     frame->facts = facts_;
     frame->cells = now_.cells ? cells_.image(*session_) : nullptr;
     frame->volume = selected_.volume();

@@ -67,7 +67,10 @@ TEST_CASE("Denoised preview: invalid pixels stay marked") {
     frame.backend.name = "cpu";
     frame.snapshot.pixels[100] = Vec3f{kNan};
     DenoisedPreview preview;
-    preview.add_to(frame, session);
+    // A stopped one leaves nothing behind.
+    CHECK_FALSE(preview.add_to(frame, session, StopFlag{true}));
+    CHECK(frame.denoised.width == 0);
+    CHECK(preview.add_to(frame, session, StopFlag{false}));
     REQUIRE(frame.denoised.width == kSize);
     CHECK(frame.denoised.pixels()[100] == kInvalidPixel);
     CHECK(frame.denoised.pixels()[101] != kInvalidPixel);

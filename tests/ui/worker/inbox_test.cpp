@@ -143,8 +143,11 @@ TEST_CASE("Inbox: edits stop a pass that may be interrupted, a frame only that o
     const auto edit = [&] { inbox.submit(EditRestart{}); };
     const auto frame = [&] { inbox.request([](Requests&) { return Interrupts::ShownPass; }); };
     CHECK(stops(true, false, edit));
+    CHECK(*inbox.edit_flag());
     CHECK_FALSE(stops(false, true, edit));
+    CHECK_FALSE(*inbox.edit_flag());
     CHECK(stops(true, true, frame));
+    CHECK_FALSE(*inbox.edit_flag());
     CHECK_FALSE(stops(true, false, frame));
     CHECK_FALSE(stops(true, true, [&] { inbox.request(nothing); }));
 }
@@ -158,6 +161,7 @@ TEST_CASE("Inbox: a request that comes before a pass is known to be interruptibl
     CHECK_FALSE(*inbox.stop_flag());
     inbox.begin_pass(true, now, "cpu");
     CHECK(*inbox.stop_flag());
+    CHECK(*inbox.edit_flag());
 }
 
 TEST_CASE("Inbox: a settled back end leaves a newer request alone") {
