@@ -1,13 +1,16 @@
 #!/usr/bin/env bash
-# window_place.sh PROGRAM WINDOW_MANAGER: a window under a window manager with title bars, started and closed three times. Passes if it
-# opens where it was closed, to the pixel.
+# window_place.sh PROGRAM OPENBOX: a window under a window manager with title bars, started and closed three times. Passes if it opens
+# where it was closed, to the pixel.
 set -u
 program=$1
 work=$(mktemp -d)
-"$2" >/dev/null 2>&1 &
+cd "$work" || exit 2
+"$2" --startup "touch $work/managed" >/dev/null 2>&1 &
 manager=$!
 trap 'kill "$manager" 2>/dev/null; rm -rf "$work"' EXIT
-cd "$work" || exit 2
+# A window that is mapped while the manager starts may wait for ever.
+for ((i = 0; i < 600; ++i)); do [[ -e managed ]] && break; sleep 0.1; done
+[[ -e managed ]] || { echo "$2 has not started within a minute"; exit 2; }
 
 # place: of the inside of the window, as it was remembered.
 place() { python3 -c 'import json, sys; w = json.load(open(sys.argv[1]))["window"]; print(w["x"], w["y"], w["width"], w["height"])' \
