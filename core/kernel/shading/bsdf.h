@@ -62,8 +62,8 @@ public:
     /// `albedo`, `lobes`: of the material at this point; `tables`: SceneView::directional_albedo.
     PL_HD LayeredBsdf(const SurfacePoint& surface, Vec3f wo, Vec3f albedo, const SurfaceLobes& lobes,
                       Span<const float> tables, const Grain& grain = {})
-        : Facets(grain), reflectance_(albedo), lobes_(lobes), albedo_(albedo) {
-        if (!is_lambert()) face(surface, wo, tables.data + lobes.table, grain);
+        : Facets(grain), reflectance_(albedo), lobes_(lobes), tables_(tables.data + lobes.table), albedo_(albedo) {
+        if (!is_lambert()) face(surface, wo, grain);
     }
 
     PL_HD bool is_lambert() const { return lobes_.kind == SurfaceKind::Diffuse; }
@@ -172,8 +172,7 @@ private:
     static constexpr float kGrazing = 1e-5f;
 
     /// Sets what depends on the direction, of a surface that is no Lambert reflector.
-    PL_HOST_APART PL_HD inline void face(const SurfacePoint& surface, Vec3f wo, const float* tables,
-                                         const Grain& grain) {
+    PL_HOST_APART PL_HD inline void face(const SurfacePoint& surface, Vec3f wo, const Grain& grain) {
         // The shading normal may face away from the viewer; the geometric one never does.
         const bool usable = glm::dot(wo, surface.shading_normal) > kGrazing;
         frame_ = Facets::frame(grain, usable ? surface.shading_normal : surface.geometric_normal);
@@ -182,10 +181,8 @@ private:
         // A coat is on both sides; the back of a dielectric is its inside.
         const bool is_inside = refracts() && !surface.front;
         eta_ = is_inside ? 1.0f / lobes_.ior : lobes_.ior;
-        row_ = row_of({is_inside ? tables + AlbedoTable::kSize : tables});
+        if (is_inside && !smooth()) tables_ += AlbedoTable::kSize;
         returned_ = returned_by_facets();
-        if (lobes_.kind == SurfaceKind::Conductor && !smooth())
-            tint_ = RoughConductor<typename Facets::Width>::several_tint(lobes_.specular, lobes_.edge_loss(), row_);
         albedo_ = directional_albedo();
     }
 
@@ -213,23 +210,6 @@ private:
         }
         return lobes_.roughness > 0.0f;
     }
-    /// The row of the surface's roughness; none where no albedo is tabulated.
-    PL_HD AlbedoRow row_of(AlbedoTable table) const {
-        const float roughness = lobes_.roughness;
-        switch (lobes_.kind) {
-        case SurfaceKind::Diffuse:
-        case SurfaceKind::Pane: break;
-        case SurfaceKind::Plastic: return table.row(roughness);
-        case SurfaceKind::Velvet:
-            if constexpr (F.has(Feature::Velvet)) return table.row(fibers_roughness());
-            break;
-        case SurfaceKind::Conductor:
-        case SurfaceKind::Dielectric:
-            if (!smooth()) return table.row(Facets::table_roughness(roughness));
-            break;
-        }
-        return {};
-    }
     PL_HD float returned_by_facets() const {
         switch (lobes_.kind) {
         case SurfaceKind::Diffuse:
@@ -241,7 +221,7 @@ private:
         case SurfaceKind::Conductor:
         case SurfaceKind::Dielectric:
             if (smooth()) break;
-            return row_.at(wo_.z);
+            return AlbedoTable{tables_}.at(Facets::table_roughness(lobes_.roughness), wo_.z);
         }
         return 1.0f;
     }
@@ -258,16 +238,25 @@ private:
     PL_HD Ggx ggx() const { return IsotropicFacets::ggx(lobes_.roughness); }
 
     PL_HD RoughConductor<typename Facets::Width> conductor() const {
-        return {Facets::ggx(lobes_.roughness), lobes_.specular, lobes_.edge_loss(), row_, tint_, wo_, returned_};
+        const float roughness = lobes_.roughness;
+        return {Facets::ggx(roughness),
+                lobes_.specular,
+                lobes_.edge_loss(),
+                {tables_},
+                Facets::table_roughness(roughness),
+                wo_,
+                returned_};
     }
     PL_HD RoughDielectric dielectric() const {
         return {ggx(), eta_, lobes_.specular, lobes_.transmission, wo_, returned_};
     }
     PL_HD Plastic plastic() const {
-        return {ggx(), reflectance_, lobes_.specular, eta_, row_, lobes_.roughness, wo_, returned_};
+        return {ggx(), reflectance_, lobes_.specular, eta_, {tables_}, lobes_.roughness, wo_, returned_};
     }
-    PL_HD float fibers_roughness() const { return max_of(lobes_.roughness, SheenFibers::kLeastRoughness); }
-    PL_HD Velvet velvet() const { return {reflectance_, lobes_.specular, fibers_roughness(), row_, wo_, returned_}; }
+    PL_HD Velvet velvet() const {
+        const float roughness = max_of(lobes_.roughness, SheenFibers::kLeastRoughness);
+        return {reflectance_, lobes_.specular, roughness, {tables_}, wo_, returned_};
+    }
     PL_HD Vec3f directional_albedo() const {
         switch (lobes_.kind) {
         case SurfaceKind::Diffuse: return reflectance_;
@@ -285,11 +274,10 @@ private:
 
     Vec3f reflectance_{0.0f};
     SurfaceLobes lobes_{};
-    AlbedoRow row_{};  ///< directional albedo of the interface by single scattering, where it is tabulated
+    const float* tables_ = nullptr;
     Frame frame_{{1.0f, 0.0f, 0.0f}, {0.0f, 1.0f, 0.0f}, {0.0f, 0.0f, 1.0f}};
     Vec3f wo_{0.0f, 0.0f, 1.0f};
     float eta_ = 1.0f;
-    Vec3f tint_{0.0f};       ///< of a conductor's multiple scattering
     float returned_ = 1.0f;  ///< directional albedo of the interface by single scattering, for wo
     Vec3f albedo_{0.0f};
 };

@@ -13,22 +13,17 @@ namespace pl {
 template <class Width>
 struct RoughConductor {
     GgxOf<Width> ggx;
-    Vec3f f0;            ///< reflectance at normal incidence
-    Vec3f edge_loss;     ///< see fresnel_conductor()
-    AlbedoRow lossless;  ///< of facets that absorb nothing
-    Vec3f tint;          ///< of multiple scattering, see several_tint()
+    Vec3f f0;         ///< reflectance at normal incidence
+    Vec3f edge_loss;  ///< see fresnel_conductor()
+    AlbedoTable lossless;
+    float roughness;  ///< for the table
     Vec3f wo;
-    float returned;  ///< lossless.at(wo.z)
-
-    PL_HD static Vec3f several_tint(Vec3f f0, Vec3f edge_loss, const AlbedoRow& lossless) {
-        const Vec3f f = mean_fresnel_conductor(f0, edge_loss);
-        return f * f * lossless.mean / (Vec3f{1.0f} - f * (1.0f - lossless.mean));
-    }
+    float returned;  ///< lossless.at(roughness, wo.z)
 
     /// Directional albedo for wo.
     PL_HD Vec3f albedo() const {
         const Vec3f single = fresnel_conductor(wo.z, f0, edge_loss) * returned;
-        return single + (1.0f - returned) * tint;
+        return single + (1.0f - returned) * several_tint();
     }
 
     /// f cos theta_i, 1/sr.
@@ -36,9 +31,9 @@ struct RoughConductor {
         if (!(wi.z > 0.0f)) return Vec3f{0.0f};
         const Vec3f m = half_vector(wo, wi);
         const Vec3f single = fresnel_conductor(glm::dot(wo, m), f0, edge_loss) * ggx.reflection(wo, wi, m);
-        const float missing = max_of(1.0f - lossless.mean, 1e-6f);
-        const float several = (1.0f - returned) * (1.0f - lossless.at(wi.z)) / missing;
-        return single + tint * (several * wi.z * kInvPi);
+        const float missing = max_of(1.0f - lossless.mean(roughness), 1e-6f);
+        const float several = (1.0f - returned) * (1.0f - lossless.at(roughness, wi.z)) / missing;
+        return single + several_tint() * (several * wi.z * kInvPi);
     }
     PL_HD float pdf_sa(Vec3f wi) const {
         if (!(wi.z > 0.0f)) return 0.0f;
@@ -48,6 +43,13 @@ struct RoughConductor {
     PL_HD Vec3f sample(Vec2f u, float choice) const {
         if (choice >= returned) return square_to_cosine_hemisphere(u);
         return reflect_at(wo, ggx.sample(wo, u));
+    }
+
+private:
+    PL_HD Vec3f several_tint() const {
+        const Vec3f f = mean_fresnel_conductor(f0, edge_loss);
+        const float mean = lossless.mean(roughness);
+        return f * f * mean / (Vec3f{1.0f} - f * (1.0f - mean));
     }
 };
 

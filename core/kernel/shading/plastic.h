@@ -16,7 +16,7 @@ struct Plastic {
     Vec3f base;      ///< albedo of the base
     Vec3f specular;  ///< tint of the coat's reflection
     float eta;
-    AlbedoRow coat;
+    AlbedoTable coat;
     float roughness;
     Vec3f wo;
     float coated;  ///< directional albedo of the coat for wo
@@ -33,7 +33,8 @@ struct Plastic {
 
     PL_HD Vec3f eval(Vec3f wi) const {
         if (!(wi.z > 0.0f)) return Vec3f{0.0f};
-        const float entering = (1.0f - coated) * (1.0f - reflected_by_coat(wi.z)) / max_of(1.0f - coat.mean, 1e-6f);
+        const float entering =
+            (1.0f - coated) * (1.0f - reflected_by_coat(wi.z)) / max_of(1.0f - coat.mean(roughness), 1e-6f);
         const Vec3f matte = base * (entering * wi.z * kInvPi);
         if (smooth()) return matte;
         const Vec3f m = half_vector(wo, wi);
@@ -54,7 +55,7 @@ struct Plastic {
 
     /// Directional albedo of the coat for any direction.
     PL_HD float reflected_by_coat(float cos_theta) const {
-        return smooth() ? fresnel_dielectric(cos_theta, eta) : coat.at(cos_theta);
+        return smooth() ? fresnel_dielectric(cos_theta, eta) : coat.at(roughness, cos_theta);
     }
 };
 

@@ -53,10 +53,10 @@ private:
 /// Local directions, wo.z > 0. The base is scaled by what the sheen leaves of the light, the less of both directions: so the BRDF is
 /// reciprocal and reflects at most what arrives.   [glTF 2.0, KHR_materials_sheen, "Albedo-scaling technique"]
 struct Velvet {
-    Vec3f base;          ///< albedo of the base
-    Vec3f sheen;         ///< reflectance of the fibers
-    float roughness;     ///< at least SheenFibers::kLeastRoughness
-    AlbedoRow lossless;  ///< of fibers of reflectance 1
+    Vec3f base;            ///< albedo of the base
+    Vec3f sheen;           ///< reflectance of the fibers
+    float roughness;       ///< at least SheenFibers::kLeastRoughness
+    AlbedoTable lossless;  ///< of fibers of reflectance 1
     Vec3f wo;
     float returned;  ///< directional albedo of such fibers for wo
 
@@ -83,7 +83,7 @@ struct Velvet {
     }
 
     /// Directional albedo of fibers of reflectance 1 for any direction.
-    PL_HD float reflected_by_fibers(float cos_theta) const { return lossless.at(cos_theta); }
+    PL_HD float reflected_by_fibers(float cos_theta) const { return lossless.at(roughness, cos_theta); }
 
 private:
     static constexpr float kUniform = 0.5f * kInvPi;  ///< density of uniform directions

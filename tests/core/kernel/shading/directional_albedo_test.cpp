@@ -28,7 +28,7 @@ double worst_error(FacetLight light, double eta, const std::vector<float>& value
         const float cos_o = std::sin(elevation * kPi / 180.0f);
         const double alpha = static_cast<double>(roughness) * static_cast<double>(roughness);
         const double expected = facet_albedo(light, alpha, static_cast<double>(cos_o), eta);
-        const auto found = static_cast<double>(table.row(roughness).at(cos_o));
+        const auto found = static_cast<double>(table.at(roughness, cos_o));
         const double error = light == FacetLight::Scattered ? expected / found - 1.0 : expected - found;
         worst = std::max(worst, std::fabs(error));
     }
@@ -79,11 +79,11 @@ TEST_CASE("The mean albedo of a table is that of its interpolation") {
         double mean = 0.0;
         for (int i = 0; i < kSteps; ++i) {
             const double root = (i + 0.5) / kSteps;  // of the cosine: mu dmu is 2 root^3 droot
-            mean += 4.0 * root * root * root *
-                    static_cast<double>(table.row(roughness).at(static_cast<float>(root * root)));
+            mean +=
+                4.0 * root * root * root * static_cast<double>(table.at(roughness, static_cast<float>(root * root)));
         }
         CAPTURE(roughness);
-        CHECK(static_cast<double>(table.row(roughness).mean) == Approx(mean / kSteps).epsilon(2e-5));
+        CHECK(static_cast<double>(table.mean(roughness)) == Approx(mean / kSteps).epsilon(2e-5));
     }
 }
 

@@ -116,7 +116,7 @@ TEST_CASE(
             CHECK(white.mean() > 0.5);
             const Moments sheen =
                 returned_light(velvet(roughness, Vec3f{0.0f}, Vec3f{1.0f}), tilted(cos_o), true, 200000);
-            const double expected = static_cast<double>(AlbedoTable{values.data()}.row(roughness).at(cos_o));
+            const double expected = static_cast<double>(AlbedoTable{values.data()}.at(roughness, cos_o));
             INFO("sheen " << sheen.mean() << " +- " << sheen.standard_error() << ", expected " << expected);
             CHECK(std::fabs(sheen.mean() - expected) < 1e-3 + 4.0 * sheen.standard_error());
         }
@@ -126,5 +126,5 @@ TEST_CASE("The fibers of velvet reflect at most what arrives, from the least rou
     const std::vector<float> values = sheen_albedo();
     for (float roughness = SheenFibers::kLeastRoughness; roughness <= 1.0f; roughness += 0.01f)
         for (float root = 0.0f; root <= 1.0f; root += 0.005f)
-            CHECK(AlbedoTable{values.data()}.row(roughness).at(root * root) <= 1.0f);
+            CHECK(AlbedoTable{values.data()}.at(roughness, root * root) <= 1.0f);
 }
