@@ -129,8 +129,8 @@ Vec3f incident_along(const Departure& departure, Vec3f radiance) {
 struct Answers {
     std::vector<Vec3f> directions;
     std::vector<float> pdf;  ///< of the sampler; empty without one
-    std::vector<float>
-        light_pdf;  ///< towards the light samples, empty without them; where a vertex has none its value is not used
+    /// Of the sampler, towards the light samples: empty without light samples; not read at vertices without one.
+    std::vector<float> light_pdf;
     float bsdf_fraction = 1.0f;
 
     float mixed(float bsdf_pdf, const std::vector<float>& sampler_pdf, std::uint32_t i) const {

@@ -145,7 +145,7 @@ std::optional<RunGain> gain_by(ErrorMetric metric, RunList runs, const LiveRun& 
     return result;
 }
 
-/// Nothing can be told of such a run yet.
+/// Whether a run has too few samples to be compared.
 bool has_just_begun(const LiveRun& run) { return run.points.empty() || run.points.back().spp < kFewestSamples; }
 
 /// Of two runs of one kind the newer one counts, unless it has just begun, or had when it was ended.
