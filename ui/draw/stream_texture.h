@@ -73,4 +73,11 @@ private:
     std::array<MeshTexture, 2> meshes_{};  ///< the newest first: compared pictures have a place each
 };
 
+/// PictureTextures::of() of the window's renderer; null without a window, too.
+template <class... Parts>
+SDL_Texture* texture_of(const Parts&... parts) {
+    PictureTextures* const textures = gui_memory().textures;
+    return textures != nullptr ? textures->of(parts...) : nullptr;
+}
+
 }  // namespace pl::ui

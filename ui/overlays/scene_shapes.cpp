@@ -173,10 +173,7 @@ void draw_flowers(ViewerModel& model, const Rect& image) {
     const ImVec2 low{std::ceil(out.GetClipRectMin().x), std::ceil(out.GetClipRectMin().y)};
     const ImVec2 high{std::floor(out.GetClipRectMax().x), std::floor(out.GetClipRectMax().y)};
     if (mesh->indices.empty() || low.x >= high.x || low.y >= high.y) return;
-    PictureTextures* const textures = gui_memory().textures;  // null without a window
-    const Rect part{low.x, low.y, high.x - low.x, high.y - low.y};
-    SDL_Texture* const texture = textures != nullptr ? textures->of(mesh, part) : nullptr;
-    if (texture != nullptr)
+    if (SDL_Texture* const texture = texture_of(mesh, Rect{low.x, low.y, high.x - low.x, high.y - low.y}))
         out.AddImage(to_texture_id(texture), low, high);
     else
         draw_mesh(out, *mesh);

@@ -116,9 +116,7 @@ struct BookmarkEdit {
 void draw_picture(const CameraBookmarks::Bookmark& bookmark, std::size_t index, bool is_current, ImVec2 low,
                   ImVec2 high) {
     ImDrawList& list = *ImGui::GetWindowDrawList();
-    PictureTextures* const textures = gui_memory().textures;  // null without a window
-    SDL_Texture* const texture = textures != nullptr && bookmark.picture ? textures->of(bookmark.picture) : nullptr;
-    if (texture != nullptr)
+    if (SDL_Texture* const texture = bookmark.picture ? texture_of(bookmark.picture) : nullptr)
         list.AddImage(to_texture_id(texture), low, high);
     else
         list.AddRectFilled(low, high, colors::kBadge);
