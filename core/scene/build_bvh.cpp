@@ -11,6 +11,7 @@
 #include "core/base/host_array.h"
 #include "core/base/parallel.h"
 #include "core/scene/bvh_split.h"
+#include "core/scene/reinsert_bvh.h"
 
 namespace pl {
 namespace {
@@ -260,6 +261,7 @@ Bvh build(std::uint32_t count, std::uint32_t most, int threads, const BoxOf& box
     bvh.nodes.reserve(1 + count_nodes(root));
     bvh.nodes.emplace_back();
     append_branch(root, 0, bvh.nodes);
+    reinsert_nodes(bvh);
     return bvh;
 }
 

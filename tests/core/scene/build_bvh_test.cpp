@@ -7,6 +7,7 @@
 
 #include "core/base/error.h"
 #include "core/base/host_array.h"
+#include "core/scene/bvh_split.h"
 #include "tests/support/catch.hpp"
 #include "tests/support/scenes/shapes.h"
 
@@ -94,78 +95,45 @@ void check_sound(const Mesh& mesh) {
     }
 }
 
-double half_area(Vec3f low, Vec3f high) {
-    const Vec3d d = Vec3d{high} - Vec3d{low};
-    return d.x * d.y + d.y * d.z + d.z * d.x;
-}
+/// The triangles of a mesh as a set to be split.
+struct SetOfTriangles {
+    std::vector<BuildTriangle> triangles;
+    BuildBox centers;
 
-/// Checks the cost of every split against all that its bins allow.
-class SplitCosts {
-public:
-    SplitCosts(const Mesh& mesh, const Bvh& bvh) : mesh_(mesh), bvh_(bvh) { visit(0); }
-
-    int splits = 0;
-    int cheapest = 0;
-
-private:
-    struct Box {
-        Vec3f low{kInfinity};
-        Vec3f high{-kInfinity};
-        int count = 0;
-
-        void add(Vec3f p) {
-            low = glm::min(low, p);
-            high = glm::max(high, p);
+    explicit SetOfTriangles(const Mesh& mesh) {
+        for (const Triangle& t : mesh.triangles) {
+            BuildBox box;
+            for (const std::uint32_t v : {t.v0, t.v1, t.v2}) {
+                const Vec3f p = mesh.positions[v];
+                box.add(BuildVector{p.x, p.y, p.z, 0.0f});
+            }
+            triangles.emplace_back(box, static_cast<std::uint32_t>(triangles.size()));
+            centers.add(triangles.back().center());
         }
-        double cost() const { return half_area(low, high) * count; }
-    };
-
-    /// Returns the boxes of the triangles below a node.
-    std::vector<Box> visit(std::uint32_t number) {
-        const BvhNode& node = bvh_.nodes[number];
-        std::vector<Box> boxes;
-        for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
-            const Triangle& t = mesh_.triangles[bvh_.primitives[i]];
-            Box box;
-            for (const std::uint32_t v : {t.v0, t.v1, t.v2}) box.add(mesh_.positions[v]);
-            boxes.push_back(box);
-        }
-        if (node.count > 0) return boxes;
-        double cost = 0.0;
-        for (const std::uint32_t child : {node.first, node.first + 1}) {
-            const std::vector<Box> below = visit(child);
-            cost += half_area(bvh_.nodes[child].low, bvh_.nodes[child].high) * static_cast<double>(below.size());
-            boxes.insert(boxes.end(), below.begin(), below.end());
-        }
-        ++splits;
-        cheapest += cost <= least_cost(boxes) * (1.0 + 1e-12) ? 1 : 0;
-        return boxes;
     }
 
-    static double least_cost(const std::vector<Box>& boxes) {
-        Box centers;
-        for (const Box& box : boxes) centers.add(0.5f * box.low + 0.5f * box.high);
+    BuildSplit split() const { return SplitFinder().find(triangles, Binning(centers)); }
+
+    /// Of all splits between sixteen bins along the axes of space.
+    double least_cost() const {
         double least = std::numeric_limits<double>::infinity();
         for (int axis = 0; axis < 3; ++axis) {
             const float scale = 16.0f / (centers.high[axis] - centers.low[axis]);
             for (int last = 0; last < 15; ++last) {
-                Box sides[2];
-                for (const Box& box : boxes) {
-                    const float center = 0.5f * box.low[axis] + 0.5f * box.high[axis];
-                    Box& side = sides[static_cast<int>((center - centers.low[axis]) * scale) <= last ? 0 : 1];
-                    side.add(box.low);
-                    side.add(box.high);
-                    ++side.count;
+                BuildBox sides[2];
+                int counts[2] = {0, 0};
+                for (const BuildTriangle& triangle : triangles) {
+                    const auto bin = static_cast<int>((triangle.center()[axis] - centers.low[axis]) * scale);
+                    const int side = bin <= last ? 0 : 1;
+                    sides[side].add(triangle.box());
+                    ++counts[side];
                 }
-                if (sides[0].count > 0 && sides[1].count > 0)
-                    least = std::min(least, sides[0].cost() + sides[1].cost());
+                if (counts[0] > 0 && counts[1] > 0)
+                    least = std::min(least, sides[0].half_area() * counts[0] + sides[1].half_area() * counts[1]);
             }
         }
         return least;
     }
-
-    const Mesh& mesh_;
-    const Bvh& bvh_;
 };
 
 Mesh random_mesh(int triangles) {
@@ -267,7 +235,7 @@ TEST_CASE("The first split separates clusters") {
 }
 
 // Walls of a room have their centers among the things inside: no plane separates them.
-TEST_CASE("The first split separates large triangles from small ones among them") {
+TEST_CASE("A split by size separates large triangles from small ones among them") {
     Uniforms random(3);
     Mesh mesh;
     for (int i = 0; i < 1000; ++i) {
@@ -279,21 +247,15 @@ TEST_CASE("The first split separates large triangles from small ones among them"
         mesh.add({-5, side, -5}, {5, side, 5}, {5, side, -5});
         mesh.add({-5, -5, side}, {5, 5, side}, {5, -5, side});
     }
-    const Bvh bvh = mesh.build();
-    REQUIRE(bvh.nodes[0].count == 0);
-    const BvhNode& left = bvh.nodes[bvh.nodes[0].first];
-    const BvhNode& right = bvh.nodes[bvh.nodes[0].first + 1];
-    CHECK(max_component(glm::max(absolute(left.low), absolute(left.high))) < 1.2f);
-    CHECK(right.low.x == -5.0f);
+    const BuildSplit split = SetOfTriangles(mesh).split();
+    CHECK(split.axis == kSizeAxis);
+    CHECK(split.lower == 1000);
 }
 
-TEST_CASE("Every split is the cheapest between sixteen bins along each axis") {
+TEST_CASE("A split is the cheapest between sixteen bins along each axis") {
     for (const int triangles : {2, 10, 3000}) {
-        const Mesh mesh = random_mesh(triangles);
-        const Bvh bvh = mesh.build();
-        const SplitCosts costs(mesh, bvh);
-        CHECK(costs.splits > triangles / 4);
-        CHECK(costs.cheapest == costs.splits);
+        const SetOfTriangles set(random_mesh(triangles));
+        CHECK(set.split().cost <= set.least_cost() * (1.0 + 1e-12));
     }
 }
 
