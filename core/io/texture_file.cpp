@@ -41,9 +41,18 @@ void clean(const fs::path& path, std::vector<glm::vec4>& texels, std::vector<std
     }
 }
 
+/// Most images have eight bits per channel: 256 codes, whose values are computed once.
 void decode(std::vector<glm::vec4>& texels) {
+    std::array<float, 256> decoded;
+    for (std::size_t i = 0; i < decoded.size(); ++i) {
+        decoded[i] = decode_srgb(static_cast<float>(i) / 255.0f);
+    }
+    const auto value_of = [&](float code) {
+        const auto level = static_cast<std::size_t>(std::clamp(code, 0.0f, 1.0f) * 255.0f + 0.5f);
+        return static_cast<float>(level) / 255.0f == code ? decoded[level] : decode_srgb(code);
+    };
     for (glm::vec4& texel : texels) {
-        texel = {decode_srgb(texel.x), decode_srgb(texel.y), decode_srgb(texel.z), texel.w};
+        texel = {value_of(texel.x), value_of(texel.y), value_of(texel.z), texel.w};
     }
 }
 
