@@ -169,8 +169,8 @@ int run_inspect(const CommandLine& line, Console& console) {
     else
         save_inspection(options.output, volume, source);
     if (!options.stats_file.empty())
-        write_text_file_atomic(options.stats_file,
-                               stats_json(session, session.snapshot(slot), options, outcome).dump(2) + "\n");
+        write_file_atomic(options.stats_file,
+                          stats_json(session, session.snapshot(slot), options, outcome).dump(2) + "\n");
     fields.save(session, options, console);
     report(volume, options, interrupted, console);
     return interrupted ? kExitInterrupted : 0;

@@ -150,16 +150,16 @@ void save_history(const std::filesystem::path& path, const std::vector<HistoryPo
                   const VolumeInspection& volume, const InspectionSource& source) {
     switch (inspection_kind(path)) {
     case InspectionKind::AsJson:
-        write_text_file_atomic(path, json_line({{"schema", "pathlight.history/1"},
-                                                {"scene", source.scene},
-                                                {"scene_hash", source.scene_hash},
-                                                {"method", source.method},
-                                                {"seed", source.seed},
-                                                {"partial", source.partial},
-                                                {"volume", volume.volume},
-                                                {"frames", history_json(points)}}));
+        write_file_atomic(path, json_line({{"schema", "pathlight.history/1"},
+                                           {"scene", source.scene},
+                                           {"scene_hash", source.scene_hash},
+                                           {"method", source.method},
+                                           {"seed", source.seed},
+                                           {"partial", source.partial},
+                                           {"volume", volume.volume},
+                                           {"frames", history_json(points)}}));
         return;
-    case InspectionKind::AsCsv: write_text_file_atomic(path, history_csv(points)); return;
+    case InspectionKind::AsCsv: write_file_atomic(path, history_csv(points)); return;
     case InspectionKind::AsPng: write_png8(path, draw_history(points), metadata_of(volume, source)); return;
     }
 }
@@ -167,8 +167,8 @@ void save_history(const std::filesystem::path& path, const std::vector<HistoryPo
 void save_inspection(const std::filesystem::path& path, const VolumeInspection& volume,
                      const InspectionSource& source) {
     switch (inspection_kind(path)) {
-    case InspectionKind::AsJson: write_text_file_atomic(path, json_line(inspection_json(volume, source))); return;
-    case InspectionKind::AsCsv: write_text_file_atomic(path, inspection_csv(volume, source.truth)); return;
+    case InspectionKind::AsJson: write_file_atomic(path, json_line(inspection_json(volume, source))); return;
+    case InspectionKind::AsCsv: write_file_atomic(path, inspection_csv(volume, source.truth)); return;
     case InspectionKind::AsPng:
         write_png8(path, draw_inspection(volume, source), metadata_of(volume, source));
         return;

@@ -227,7 +227,7 @@ bool write_gain(Session& session, const Snapshot& snapshot, const Options& optio
     const Snapshot baseline = session.snapshot_with_halves(base);
     const TileGains gains = tile_gains(timed(baseline), timed(method), method.width);
     if (is_json(options))
-        write_text_file_atomic(options.gain_file, tile_gains_json(gains).dump(2) + "\n");
+        write_file_atomic(options.gain_file, tile_gains_json(gains).dump(2) + "\n");
     else
         write_png8(options.gain_file, marked(display_image(snapshot, options.display), gains),
                    {{"Software", "pathlight " PL_VERSION}});

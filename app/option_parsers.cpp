@@ -54,10 +54,6 @@ std::vector<std::string> view_names() {
     return names_in(all_views(), [](const ViewInfo& info) { return info.name; });
 }
 
-void fail_not_yet(std::string_view what) {
-    throw Error(ErrorKind::Usage, fmt::format("this version does not have it: {}", what));
-}
-
 void parse_method(Options& options, const std::string& text) {
     const auto id = method_by_name(text);
     if (!id) fail_choice(method_names(), text);

@@ -64,9 +64,6 @@ std::vector<std::string> names_in(const Range& range, Name name) {
 
 // Parsers of option values that take more than a line. Each throws Error(Usage) "expected ..., got '...'".
 
-/// For words of the contract that a later version will understand.
-[[noreturn]] void fail_not_yet(std::string_view what);
-
 std::vector<std::string> method_names();
 std::vector<std::string> view_names();
 

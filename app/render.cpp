@@ -111,7 +111,7 @@ int run_render(const CommandLine& line, Console& console) {
     const Json stats = stats_json(session, snapshot, options, outcome, aim);
     const ImageMetadata metadata = metadata_of(session, snapshot, stats, command, outcome.interrupted());
     write_picture(options.output, snapshot, options.display, metadata, console);
-    if (!options.stats_file.empty()) write_text_file_atomic(options.stats_file, stats.dump(2) + "\n");
+    if (!options.stats_file.empty()) write_file_atomic(options.stats_file, stats.dump(2) + "\n");
     fields.save(session, options, console);
     report(snapshot, options, stats, outcome.interrupted(), aim, checkpoints, console);
     if (outcome.interrupted()) return kExitInterrupted;

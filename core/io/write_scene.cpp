@@ -110,8 +110,8 @@ std::vector<std::string> material_names(const SceneDescription& scene) {
 
 void write_mesh(const SceneDescription& scene, const std::vector<std::string>& names,
                 const std::filesystem::path& folder, const std::string& stem) {
-    write_text_file_atomic(folder / (stem + ".obj"), obj_text(scene, names, stem));
-    write_text_file_atomic(folder / (stem + ".mtl"), mtl_text(scene, names));
+    write_file_atomic(folder / (stem + ".obj"), obj_text(scene, names, stem));
+    write_file_atomic(folder / (stem + ".mtl"), mtl_text(scene, names));
 }
 
 namespace fs = std::filesystem;
