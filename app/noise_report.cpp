@@ -16,12 +16,6 @@
 namespace pl {
 namespace {
 
-constexpr const char* kNoiseLights[] = {"surfaces", "environment"};
-
-std::string bounce_name(std::size_t bounces) {
-    return bounces + 1 < diagnose::kBounceClasses ? fmt::format("{}", bounces) : fmt::format("{} or more", bounces);
-}
-
 std::string bounds_text(const Interval& value) {
     return fmt::format("{:.4g} ({:.4g} to {:.4g})", value.value, value.low, value.high);
 }
@@ -35,12 +29,14 @@ std::string share_line(std::string_view name, const Interval& share) {
 
 std::string shares_text(const diagnose::NoiseShares& shares) {
     std::string text = "  noise by technique\n";
-    for (const ChoiceInfo<diagnose::FoundBy>& info : kChoices<diagnose::FoundBy>)
+    for (const ChoiceInfo<diagnose::Technique>& info : kChoices<diagnose::Technique>)
         text += share_line(info.label, shares.found_by[static_cast<std::size_t>(info.value)]);
     text += "  noise by bounces\n";
-    for (std::size_t i = 0; i < diagnose::kBounceClasses; ++i) text += share_line(bounce_name(i), shares.bounces[i]);
+    for (std::size_t i = 0; i < diagnose::kBounceClasses; ++i)
+        text += share_line(diagnose::bounce_name(i), shares.bounces[i]);
     text += "  noise by light\n";
-    for (std::size_t i = 0; i < shares.lights.size(); ++i) text += share_line(kNoiseLights[i], shares.lights[i]);
+    for (std::size_t i = 0; i < shares.lights.size(); ++i)
+        text += share_line(diagnose::kNoiseLights[i], shares.lights[i]);
     return text;
 }
 
@@ -61,13 +57,13 @@ Json estimate_json(std::string_view method, const diagnose::PixelEstimate& estim
               {"by_bounces", Json()},
               {"by_light", Json()}};
     if (!estimate.shares) return json;
-    for (const ChoiceInfo<diagnose::FoundBy>& info : kChoices<diagnose::FoundBy>)
+    for (const ChoiceInfo<diagnose::Technique>& info : kChoices<diagnose::Technique>)
         json["by_technique"][std::string(info.name)] =
             bench::interval_json(estimate.shares->found_by[static_cast<std::size_t>(info.value)]);
     json["by_bounces"] = Json::array();
     for (const Interval& share : estimate.shares->bounces) json["by_bounces"].push_back(bench::interval_json(share));
     for (std::size_t i = 0; i < estimate.shares->lights.size(); ++i)
-        json["by_light"][kNoiseLights[i]] = bench::interval_json(estimate.shares->lights[i]);
+        json["by_light"][diagnose::kNoiseLights[i]] = bench::interval_json(estimate.shares->lights[i]);
     return json;
 }
 
