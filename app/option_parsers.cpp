@@ -130,13 +130,13 @@ void parse_camera(Options& options, const std::string& text) {
     const std::filesystem::path path(text);
     if (text.starts_with('{')) {
         try {
-            read_camera_parts(JsonDocument(text, "JSON"), options.camera);
+            read_camera_parts(JsonDocument(text, "JSON"), "", options.camera);
         } catch (const Error& error) {
             throw Error(ErrorKind::Usage, error.what());
         }
     } else if (suffix_of(path) == ".json" ||
                (std::filesystem::exists(path, ignored) && !std::filesystem::is_directory(path, ignored))) {
-        read_camera_parts(JsonDocument(read_text_file(path), path), options.camera);
+        read_camera_parts(JsonDocument(read_text_file(path), path), "", options.camera);
     } else {
         options.load.camera = text;
     }
