@@ -29,8 +29,8 @@ std::vector<TakenOption> options_of(Command command) {
     for (const OptionSpec& spec : option_table())
         if (spec.commands.has(command) && !spec.group.empty())
             options.push_back({split_at_commas(std::string(spec.flags)), spec.value, spec.help_text(), &spec});
-    for (const ParserFlag& flag : parser_flags(command))
-        options.push_back({split_at_commas(flag.flags), "", flag.help, nullptr});
+    for (const Question& question : all_questions())
+        options.push_back({split_at_commas(std::string(question.flags)), "", std::string(question.help), nullptr});
     return options;
 }
 
@@ -127,8 +127,8 @@ std::string man_page() {
                     man_option(split_at_commas(std::string(spec.flags)), spec.value, spec.help_text() + takers(spec));
     }
     text += ".SS Questions\n";
-    for (const ParserFlag& flag : parser_flags(Command::View))
-        text += man_option(split_at_commas(flag.flags), "", flag.help);
+    for (const Question& question : all_questions())
+        text += man_option(split_at_commas(std::string(question.flags)), "", std::string(question.help));
     text += ".SH EXAMPLES\n.nf\n";
     for (const CommandInfo& info : all_commands())
         for (const std::string_view example : info.examples) text += roff(example) + "\n";
