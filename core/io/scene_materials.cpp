@@ -99,25 +99,16 @@ bool read_wrap(const JsonDocument& file, const std::string& pointer, bool standa
 
 void read_images(const JsonDocument& file, const std::string& at, SceneDescription& scene, TextureUse& use) {
     const bool repeats = read_wrap(file, at + "/wrap", true);
-    struct Slot {
-        const char* key;
-        std::uint32_t TextureUse::*index;
-        TextureContent content;
-    };
-    for (const Slot& slot : {Slot{"/albedo_map", &TextureUse::albedo, TextureContent::Color},
-                             Slot{"/roughness_map", &TextureUse::roughness, TextureContent::Number},
-                             Slot{"/emission_map", &TextureUse::emission, TextureContent::Color},
-                             Slot{"/opacity_map", &TextureUse::opacity, TextureContent::Opacity},
-                             Slot{"/normal_map", &TextureUse::normal, TextureContent::Normal},
-                             Slot{"/blend/image", &TextureUse::blend, TextureContent::Number}}) {
-        const std::optional<std::string> name = file.text(at + slot.key);
-        const bool own_repeats = read_wrap(file, at + slot.key + "_wrap", repeats);
+    for (const MaterialImage& image : kMaterialImages) {
+        const std::string pointer = at + "/" + image.name;
+        const std::optional<std::string> name = file.text(pointer);
+        const bool own_repeats = read_wrap(file, pointer + "_wrap", repeats);
         if (!name) {
             continue;
         }
-        use.*slot.index = name->empty() ? kNoTexture
-                                        : add_texture(scene, image_path(file, scene, at + slot.key, *name),
-                                                      slot.content, own_repeats);
+        use.*image.texture =
+            name->empty() ? kNoTexture
+                          : add_texture(scene, image_path(file, scene, pointer, *name), image.content, own_repeats);
     }
 }
 
@@ -215,25 +206,14 @@ void read_materials(const JsonDocument& file, SceneDescription& scene) {
     if (!all->is_object()) {
         file.fail("/materials", "expected an object { ... }");
     }
-    std::vector<std::string> keys{"emission",
-                                  "two_sided_emission",
-                                  "surface",
-                                  "albedo_map",
-                                  "roughness_map",
-                                  "emission_map",
-                                  "opacity_map",
-                                  "normal_map",
-                                  "wrap",
-                                  "albedo_map_wrap",
-                                  "roughness_map_wrap",
-                                  "emission_map_wrap",
-                                  "opacity_map_wrap",
-                                  "normal_map_wrap",
-                                  "normal_strength",
-                                  "normal_green",
-                                  "opacity",
-                                  "opacity_rule",
-                                  "blend"};
+    std::vector<std::string> keys{"emission", "two_sided_emission", "surface",
+                                  "wrap",     "normal_strength",    "normal_green",
+                                  "opacity",  "opacity_rule",       "blend"};
+    for (const MaterialImage& image : kMaterialImages) {
+        if (std::string_view(image.name).find('/') != std::string_view::npos) continue;  // of a member's member
+        keys.emplace_back(image.name);
+        keys.push_back(keys.back() + "_wrap");
+    }
     for (const MaterialParameter* parameter : kMaterialParameters) keys.emplace_back(parameter->name);
     for (const auto& [name, overrides] : all->items()) {
         const std::string at = "/materials" + pointer_step(name);
