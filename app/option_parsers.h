@@ -14,9 +14,6 @@ namespace pl {
 
 // Option values that are one of several words, or some of them.
 
-/// The items of "a,b,c".
-std::vector<std::string> split_at_commas(const std::string& text);
-
 /// "a, b or c"
 std::string one_of(const std::vector<std::string>& names);
 

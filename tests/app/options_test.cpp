@@ -281,7 +281,7 @@ TEST_CASE("every option is in the manual, or in the page on measuring") {
         const std::string flags(spec.flags);
         CAPTURE(flags);
         CHECK(pages.find("--" + std::string(spec.name)) != std::string::npos);
-        for (const std::string& flag : split_at_commas(flags)) CHECK(pages.find("`" + flag) != std::string::npos);
+        for (const std::string& flag : split(flags, ',')) CHECK(pages.find("`" + flag) != std::string::npos);
     }
     for (const CommandInfo& info : all_commands())
         CHECK_THAT(pages, contains(fmt::format("pathlight {}", info.id == Command::View ? "[view]" : info.name)));
