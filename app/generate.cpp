@@ -11,6 +11,7 @@
 #include "app/help.h"
 #include "app/option_parsers.h"
 #include "app/options.h"
+#include "app/parse_values.h"
 #include "core/io/load_scene.h"
 
 namespace pl {
@@ -28,9 +29,9 @@ std::vector<TakenOption> options_of(Command command) {
     std::vector<TakenOption> options;
     for (const OptionSpec& spec : option_table())
         if (spec.commands.has(command) && !spec.group.empty())
-            options.push_back({split_at_commas(std::string(spec.flags)), spec.value, spec.help_text(), &spec});
-    for (const ParserFlag& flag : parser_flags(command))
-        options.push_back({split_at_commas(flag.flags), "", flag.help, nullptr});
+            options.push_back({split(spec.flags, ','), spec.value, spec.help_text(), &spec});
+    for (const Question& question : all_questions())
+        options.push_back({split(question.flags, ','), "", std::string(question.help), nullptr});
     return options;
 }
 
@@ -48,11 +49,8 @@ std::vector<std::string> words_of(const OptionSpec& spec) {
         return {};
     }
     std::vector<std::string> words;
-    for (std::size_t start = 0, end = 0; end != std::string_view::npos; start = end + 1) {
-        end = spec.value.find('|', start);
-        const std::string_view word = spec.value.substr(start, end - start);
-        if (word.find_first_of("ABCDEFGHIJKLMNOPQRSTUVWXYZ") == std::string_view::npos) words.emplace_back(word);
-    }
+    for (const std::string& word : split(spec.value, '|'))
+        if (word.find_first_of("ABCDEFGHIJKLMNOPQRSTUVWXYZ") == std::string::npos) words.push_back(word);
     return words;
 }
 
@@ -123,12 +121,11 @@ std::string man_page() {
         text += fmt::format(".SS {}\n", roff(group));
         for (const OptionSpec& spec : option_table())
             if (spec.group == group)
-                text +=
-                    man_option(split_at_commas(std::string(spec.flags)), spec.value, spec.help_text() + takers(spec));
+                text += man_option(split(spec.flags, ','), spec.value, spec.help_text() + takers(spec));
     }
     text += ".SS Questions\n";
-    for (const ParserFlag& flag : parser_flags(Command::View))
-        text += man_option(split_at_commas(flag.flags), "", flag.help);
+    for (const Question& question : all_questions())
+        text += man_option(split(question.flags, ','), "", std::string(question.help));
     text += ".SH EXAMPLES\n.nf\n";
     for (const CommandInfo& info : all_commands())
         for (const std::string_view example : info.examples) text += roff(example) + "\n";

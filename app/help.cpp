@@ -93,7 +93,7 @@ constexpr std::array kCommands{
                 "'report' makes a page of the folder.",
                 {"pathlight bench cornell door --time-limit 2 -o results",
                  "pathlight bench --suite literature --scenes scenes --protocol npm --quick -o quick",
-                 "pathlight bench cornell --effects --seeds 3 --size 256x256 --spp 16 -o kernels"},
+                 "pathlight bench cornell --field table,lobes --method reinforcement -o fields"},
                 Inputs::Scenes},
     CommandInfo{Command::Report, "report", "DIR",
                 "Makes one HTML page of a bench folder, and its plots as SVG.\n"

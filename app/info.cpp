@@ -59,6 +59,7 @@ std::string surface_text(const MaterialDescription& m) {
 struct SceneReport {
     const SceneDescription& scene;
     const HostScene& packed;
+    std::string hash;
     Bounds bounds;
     std::vector<EffectRow> effects;
     std::vector<std::string> compiled;
@@ -87,7 +88,7 @@ std::string report_text(const SceneReport& report) {
     const CameraDescription& camera = scene.camera;
     std::string text =
         fmt::format("name       {}\nsummary    {}\nfile       {}\nhash       {}\n", scene.name,
-                    scene.summary.empty() ? "nothing said" : scene.summary, scene.source.string(), scene_hash(scene));
+                    scene.summary.empty() ? "nothing said" : scene.summary, scene.source.string(), report.hash);
     text += fmt::format("triangles  {}\nlights     {} triangles\nmaterials  {}\n", triangles_text(scene),
                         report.packed.lights.size(), scene.materials.size());
     for (const MaterialDescription& material : scene.materials)
@@ -155,7 +156,7 @@ Json json_of(const SceneReport& report) {
     Json json{{"name", scene.name},
               {"summary", scene.summary},
               {"file", scene.source.string()},
-              {"scene_hash", scene_hash(scene)},
+              {"scene_hash", report.hash},
               {"triangles", scene.triangles.size()},
               {"lights", report.packed.lights.size()},
               {"light", name_of(light_of(scene))},
@@ -186,6 +187,7 @@ int run_info(const CommandLine& line, Console& console) {
         served_kernel(make_own_backend(options.backend, options.threads)->info().name, needed, options.render);
     const SceneReport report{.scene = *loaded.scene,
                              .packed = packed,
+                             .hash = scene_hash(*loaded.scene),
                              .bounds = bounds_of(*loaded.scene),
                              .effects = effects_of(needed, *loaded.scene),
                              .compiled = effect_names(kernel.compiled),

@@ -5,7 +5,6 @@
 
 #include "app/closest_surface.h"
 #include "app/commands.h"
-#include "app/disc_picture.h"
 #include "app/inspection_file.h"
 #include "app/interrupt.h"
 #include "app/make_backend.h"
@@ -27,13 +26,11 @@ namespace {
 void require_outputs(const Options& options) {
     const InspectionKind kind = inspection_kind(options.output);
     if (options.history) require_viewer_code("--history");
-    if (options.drawn != HemisphereDisplay::Disc) {
-        require_viewer_code("--drawn");
-        if (kind != InspectionKind::AsPng || options.history)
-            throw Error(ErrorKind::Usage, fmt::format("{}: --drawn {} is a picture of cells: expected a .png and no "
-                                                      "--history",
-                                                      options.output, name_of(options.drawn)));
-    }
+    if (kind == InspectionKind::AsPng) require_viewer_code(options.output);
+    if (options.drawn != HemisphereDisplay::Disc && (kind != InspectionKind::AsPng || options.history))
+        throw Error(ErrorKind::Usage, fmt::format("{}: --drawn {} is a picture of cells: expected a .png and no "
+                                                  "--history",
+                                                  options.output, name_of(options.drawn)));
     require_writable(options.output);
     if (!options.stats_file.empty()) require_writable(options.stats_file);
     if (!options.save_field.empty()) require_writable(options.save_field);
@@ -169,8 +166,8 @@ int run_inspect(const CommandLine& line, Console& console) {
     else
         save_inspection(options.output, volume, source);
     if (!options.stats_file.empty())
-        write_text_file_atomic(options.stats_file,
-                               stats_json(session, session.snapshot(slot), options, outcome).dump(2) + "\n");
+        write_file_atomic(options.stats_file,
+                          stats_json(session, session.snapshot(slot), options, outcome).dump(2) + "\n");
     fields.save(session, options, console);
     report(volume, options, interrupted, console);
     return interrupted ? kExitInterrupted : 0;

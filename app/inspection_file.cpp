@@ -4,10 +4,10 @@
 
 #include <fmt/format.h>
 
-#include "app/disc_picture.h"
 #include "app/parse_values.h"
 #include "core/base/error.h"
 #include "core/bench/bench_results.h"
+#include "core/fields/disc_frame.h"
 #include "core/io/files.h"
 #include "core/kernel/base/frame.h"
 #include "core/kernel/guiding/direction_cells.h"
@@ -52,13 +52,47 @@ Json truth_json(const LightReport& truth) {
             {"mixture", truth.mixture_shares}};
 }
 
-ByteImage draw_inspection(const VolumeInspection& volume, const InspectionSource& source) {
-    const std::string title = fmt::format("{}, {}, {} spp", source.scene, source.method, source.spp);
-    return source.truth ? draw_truth(volume, *source.truth, source.camera, title)
-                        : draw_hemisphere(volume, source.camera, title);
+std::string short_vector(const Vec3f& v) {
+    const Vec3f positive_zeros = v + 0.0f;
+    return fmt::format("{:.3g}, {:.3g}, {:.3g}", positive_zeros.x, positive_zeros.y, positive_zeros.z);
+}
+
+/// The lines above the discs: origin, volume, position, and the world directions of the discs' axes.
+std::vector<std::string> disc_lines(const VolumeInspection& volume, const InspectionSource& source) {
+    const DiscFrame frame(volume.normal, source.camera);
+    std::vector<std::string> lines{fmt::format("{}, {}, {} spp", source.scene, source.method, source.spp),
+                                   fmt::format("volume {}, {} directions, mean radiance {:.3g}", volume.volume,
+                                               volume.side * volume.side, volume.mean_radiance),
+                                   fmt::format("position {}", short_vector(volume.position)),
+                                   fmt::format("normal {} (cross in the center)", short_vector(volume.normal)),
+                                   fmt::format("right {}", short_vector(frame.right())),
+                                   fmt::format("up {} (arrow{}), camera: ring", short_vector(frame.up()),
+                                               frame.up_is_scene() ? "" : ", up in the picture"),
+                                   "logarithmic colors"};
+    if (!source.truth) return lines;
+    const std::vector<std::string> figures = truth_lines(*source.truth);
+    lines.insert(lines.end(), figures.begin(), figures.end());
+    return lines;
+}
+
+std::string interval_text(const Interval& interval) {
+    return fmt::format("{:.3g} ({:.3g} to {:.3g})", interval.value, interval.low, interval.high);
 }
 
 }  // namespace
+
+std::vector<std::string> truth_lines(const LightReport& truth) {
+    const GuidingFigures& figures = truth.figures;
+    std::vector<std::string> lines{
+        fmt::format("truth: {} paths per cell, incident light: {}", truth.paths_per_cell, name_of(truth.target)),
+        fmt::format("KL divergence of the table {} nats", interval_text(figures.table)),
+        fmt::format("KL divergence of the mixture {} nats", interval_text(figures.mixture)),
+        figures.variance_factor
+            ? fmt::format("variance by the mixture / by BSDF sampling {}", interval_text(*figures.variance_factor))
+            : "BSDF sampling has no variance here"};
+    if (truth.invalid_paths > 0) lines.push_back(fmt::format("invalid paths: {}", truth.invalid_paths));
+    return lines;
+}
 
 InspectionKind inspection_kind(const std::filesystem::path& path) {
     const std::string suffix = path.extension().string();
@@ -150,16 +184,16 @@ void save_history(const std::filesystem::path& path, const std::vector<HistoryPo
                   const VolumeInspection& volume, const InspectionSource& source) {
     switch (inspection_kind(path)) {
     case InspectionKind::AsJson:
-        write_text_file_atomic(path, json_line({{"schema", "pathlight.history/1"},
-                                                {"scene", source.scene},
-                                                {"scene_hash", source.scene_hash},
-                                                {"method", source.method},
-                                                {"seed", source.seed},
-                                                {"partial", source.partial},
-                                                {"volume", volume.volume},
-                                                {"frames", history_json(points)}}));
+        write_file_atomic(path, json_line({{"schema", "pathlight.history/1"},
+                                           {"scene", source.scene},
+                                           {"scene_hash", source.scene_hash},
+                                           {"method", source.method},
+                                           {"seed", source.seed},
+                                           {"partial", source.partial},
+                                           {"volume", volume.volume},
+                                           {"frames", history_json(points)}}));
         return;
-    case InspectionKind::AsCsv: write_text_file_atomic(path, history_csv(points)); return;
+    case InspectionKind::AsCsv: write_file_atomic(path, history_csv(points)); return;
     case InspectionKind::AsPng: write_png8(path, draw_history(points), metadata_of(volume, source)); return;
     }
 }
@@ -167,10 +201,13 @@ void save_history(const std::filesystem::path& path, const std::vector<HistoryPo
 void save_inspection(const std::filesystem::path& path, const VolumeInspection& volume,
                      const InspectionSource& source) {
     switch (inspection_kind(path)) {
-    case InspectionKind::AsJson: write_text_file_atomic(path, json_line(inspection_json(volume, source))); return;
-    case InspectionKind::AsCsv: write_text_file_atomic(path, inspection_csv(volume, source.truth)); return;
+    case InspectionKind::AsJson: write_file_atomic(path, json_line(inspection_json(volume, source))); return;
+    case InspectionKind::AsCsv: write_file_atomic(path, inspection_csv(volume, source.truth)); return;
     case InspectionKind::AsPng:
-        write_png8(path, draw_inspection(volume, source), metadata_of(volume, source));
+        write_png8(
+            path,
+            draw_discs(volume, source.camera, disc_lines(volume, source), source.truth ? &*source.truth : nullptr),
+            metadata_of(volume, source));
         return;
     }
 }

@@ -46,6 +46,9 @@ Json history_json(const std::vector<HistoryPoint>& points);
 void save_history(const std::filesystem::path& path, const std::vector<HistoryPoint>& points,
                   const VolumeInspection& volume, const InspectionSource& source);
 
+/// Paths, divergences and variance factor with their 95 % intervals, as text.
+std::vector<std::string> truth_lines(const LightReport& truth);
+
 /// Writes the file whole or not at all. Throws Error: Usage for another suffix, Runtime.
 void save_inspection(const std::filesystem::path& path, const VolumeInspection& volume,
                      const InspectionSource& source);

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "app/run_passes.h"
+#include "app/scene_picture.h"
 #include "core/base/error.h"
 #include "core/bench/bench_results.h"
 #include "core/io/files.h"
@@ -14,12 +15,6 @@
 
 namespace pl {
 namespace {
-
-constexpr const char* kNoiseLights[] = {"surfaces", "environment"};
-
-std::string bounce_name(std::size_t bounces) {
-    return bounces + 1 < diagnose::kBounceClasses ? fmt::format("{}", bounces) : fmt::format("{} or more", bounces);
-}
 
 std::string bounds_text(const Interval& value) {
     return fmt::format("{:.4g} ({:.4g} to {:.4g})", value.value, value.low, value.high);
@@ -34,12 +29,14 @@ std::string share_line(std::string_view name, const Interval& share) {
 
 std::string shares_text(const diagnose::NoiseShares& shares) {
     std::string text = "  noise by technique\n";
-    for (const ChoiceInfo<diagnose::FoundBy>& info : kChoices<diagnose::FoundBy>)
+    for (const ChoiceInfo<diagnose::Technique>& info : kChoices<diagnose::Technique>)
         text += share_line(info.label, shares.found_by[static_cast<std::size_t>(info.value)]);
     text += "  noise by bounces\n";
-    for (std::size_t i = 0; i < diagnose::kBounceClasses; ++i) text += share_line(bounce_name(i), shares.bounces[i]);
+    for (std::size_t i = 0; i < diagnose::kBounceClasses; ++i)
+        text += share_line(diagnose::bounce_name(i), shares.bounces[i]);
     text += "  noise by light\n";
-    for (std::size_t i = 0; i < shares.lights.size(); ++i) text += share_line(kNoiseLights[i], shares.lights[i]);
+    for (std::size_t i = 0; i < shares.lights.size(); ++i)
+        text += share_line(diagnose::kNoiseLights[i], shares.lights[i]);
     return text;
 }
 
@@ -60,13 +57,13 @@ Json estimate_json(std::string_view method, const diagnose::PixelEstimate& estim
               {"by_bounces", Json()},
               {"by_light", Json()}};
     if (!estimate.shares) return json;
-    for (const ChoiceInfo<diagnose::FoundBy>& info : kChoices<diagnose::FoundBy>)
+    for (const ChoiceInfo<diagnose::Technique>& info : kChoices<diagnose::Technique>)
         json["by_technique"][std::string(info.name)] =
             bench::interval_json(estimate.shares->found_by[static_cast<std::size_t>(info.value)]);
     json["by_bounces"] = Json::array();
     for (const Interval& share : estimate.shares->bounces) json["by_bounces"].push_back(bench::interval_json(share));
     for (std::size_t i = 0; i < estimate.shares->lights.size(); ++i)
-        json["by_light"][kNoiseLights[i]] = bench::interval_json(estimate.shares->lights[i]);
+        json["by_light"][diagnose::kNoiseLights[i]] = bench::interval_json(estimate.shares->lights[i]);
     return json;
 }
 
@@ -165,43 +162,6 @@ TimedHalves timed(const Snapshot& snapshot) {
     return {.halves = halves_of(snapshot.halves), .seconds = charged_seconds(snapshot.clocks)};
 }
 
-/// Whether a point is on the mark of a verdict, in units of its radius from its center, y down: a triangle up for a gain, one down for
-/// a loss, a disc for no difference, a ring where nothing is decided.
-bool is_on_mark(Verdict verdict, double x, double y) {
-    const double radius = std::hypot(x, y);
-    if (verdict == Verdict::NoDifference) return radius < 0.7;
-    if (verdict != Verdict::Faster && verdict != Verdict::Slower) return std::abs(radius - 0.6) < 0.15;
-    const double below_tip = 1.0 + (verdict == Verdict::Faster ? y : -y);  // 0 at the tip, 1.5 at the base
-    return below_tip < 1.5 && std::abs(x) < 0.58 * below_tip;
-}
-
-void draw_mark(ByteImage& image, const Interval& gain, glm::ivec2 low, glm::ivec2 high) {
-    const Verdict verdict = verdict_of(gain);
-    const std::uint32_t color = mark_color(verdict);
-    const double radius = 0.25 * std::min(high.x - low.x, high.y - low.y);
-    for (int y = low.y; y < high.y; ++y)
-        for (int x = low.x; x < high.x; ++x) {
-            if (!is_on_mark(verdict, (x + 0.5 - 0.5 * (low.x + high.x)) / radius,
-                            (y + 0.5 - 0.5 * (low.y + high.y)) / radius))
-                continue;
-            const auto at = 3 * static_cast<std::size_t>(y * image.width + x);
-            for (std::size_t channel = 0; channel < 3; ++channel)
-                image.rgb[at + channel] = static_cast<std::uint8_t>(color >> (16 - 8 * channel) & 255u);
-        }
-}
-
-ByteImage marked(ByteImage image, const TileGains& gains) {
-    const auto corner = [&](int column, int row) {
-        return glm::ivec2{TileGains::edge(column, gains.columns, image.width),
-                          TileGains::edge(row, gains.rows, image.height)};
-    };
-    for (int row = 0; row < gains.rows; ++row)
-        for (int column = 0; column < gains.columns; ++column)
-            draw_mark(image, gains.tiles[static_cast<std::size_t>(row * gains.columns + column)], corner(column, row),
-                      corner(column + 1, row + 1));
-    return image;
-}
-
 }  // namespace
 
 void require_gain(const Options& options) {
@@ -214,11 +174,11 @@ void require_gain(const Options& options) {
     if (!is_json(options) && image_kind(options.gain_file) != ImageKind::Png)
         throw Error(ErrorKind::Usage,
                     fmt::format("--gain: expected a .json or .png file, got '{}'", options.gain_file));
+    if (!is_json(options)) require_viewer_code(options.gain_file);
     require_writable(options.gain_file);
 }
 
-bool write_gain(Session& session, const Snapshot& snapshot, const Options& options, const InterruptGuard& interrupt,
-                Console& console) {
+bool write_gain(Session& session, const Options& options, const InterruptGuard& interrupt, Console& console) {
     const FilmSlot slot = slot_of(options.render);
     const FilmSlot base{baseline_method(), slot.view};
     if (!render_for(session, slot, 0.0, interrupt)) return false;
@@ -227,9 +187,9 @@ bool write_gain(Session& session, const Snapshot& snapshot, const Options& optio
     const Snapshot baseline = session.snapshot_with_halves(base);
     const TileGains gains = tile_gains(timed(baseline), timed(method), method.width);
     if (is_json(options))
-        write_text_file_atomic(options.gain_file, tile_gains_json(gains).dump(2) + "\n");
+        write_file_atomic(options.gain_file, tile_gains_json(gains).dump(2) + "\n");
     else
-        write_png8(options.gain_file, marked(display_image(snapshot, options.display), gains),
+        write_png8(options.gain_file, draw_gains(session, slot, gains, options.display),
                    {{"Software", "pathlight " PL_VERSION}});
     console.remark(fmt::format("{}: {} {} in the time to the same noise\n", options.gain_file,
                                info_of(slot.method).name, mark_text(gains.picture)));

@@ -43,7 +43,6 @@ void require_gain(const Options& options);
 
 /// Renders `default` beside the finished picture, in the same session, until it has taken as much time, and writes the file: the gains as
 /// JSON, or the picture with a mark for each tile. Returns false if it was interrupted, and writes nothing then.
-bool write_gain(Session& session, const Snapshot& snapshot, const Options& options, const InterruptGuard& interrupt,
-                Console& console);
+bool write_gain(Session& session, const Options& options, const InterruptGuard& interrupt, Console& console);
 
 }  // namespace pl

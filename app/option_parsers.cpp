@@ -19,16 +19,6 @@
 
 namespace pl {
 
-std::vector<std::string> split_at_commas(const std::string& text) {
-    std::vector<std::string> items;
-    for (std::size_t start = 0; start <= text.size();) {
-        const std::size_t end = std::min(text.find(',', start), text.size());
-        items.push_back(text.substr(start, end - start));
-        start = end + 1;
-    }
-    return items;
-}
-
 std::string one_of(const std::vector<std::string>& names) {
     std::string text;
     for (std::size_t i = 0; i < names.size(); ++i)
@@ -54,10 +44,6 @@ std::vector<std::string> view_names() {
     return names_in(all_views(), [](const ViewInfo& info) { return info.name; });
 }
 
-void fail_not_yet(std::string_view what) {
-    throw Error(ErrorKind::Usage, fmt::format("this version does not have it: {}", what));
-}
-
 void parse_method(Options& options, const std::string& text) {
     const auto id = method_by_name(text);
     if (!id) fail_choice(method_names(), text);
@@ -67,7 +53,7 @@ void parse_method(Options& options, const std::string& text) {
 void parse_methods(Options& options, const std::string& text) {
     options.methods.clear();
     if (text == "all") return;
-    for (const std::string& name : split_at_commas(text)) {
+    for (const std::string& name : split(text, ',')) {
         const auto id = method_by_name(name);
         if (!id) fail_choice(method_names(), name);
         if (std::find(options.methods.begin(), options.methods.end(), *id) == options.methods.end())
@@ -78,7 +64,7 @@ void parse_methods(Options& options, const std::string& text) {
 void parse_backends(Options& options, const std::string& text) {
     options.backends.clear();
     if (text == "auto") return;
-    for (const std::string& name : split_at_commas(text)) {
+    for (const std::string& name : split(text, ',')) {
         parse_backend(options, name);
         if (name == "auto") fail_value("cpu, cuda or both with a comma between; or auto alone", text);
         if (std::find(options.backends.begin(), options.backends.end(), name) == options.backends.end())
@@ -134,13 +120,13 @@ void parse_camera(Options& options, const std::string& text) {
     const std::filesystem::path path(text);
     if (text.starts_with('{')) {
         try {
-            read_camera_parts(JsonDocument(text, "JSON"), options.camera);
+            read_camera_parts(JsonDocument(text, "JSON"), "", options.camera);
         } catch (const Error& error) {
             throw Error(ErrorKind::Usage, error.what());
         }
     } else if (suffix_of(path) == ".json" ||
                (std::filesystem::exists(path, ignored) && !std::filesystem::is_directory(path, ignored))) {
-        read_camera_parts(JsonDocument(read_text_file(path), path), options.camera);
+        read_camera_parts(JsonDocument(read_text_file(path), path), "", options.camera);
     } else {
         options.load.camera = text;
     }
@@ -193,7 +179,7 @@ void parse_picture_size(Options& options, const std::string& text) {
 }
 
 void parse_crop(Options& options, const std::string& text) {
-    const std::vector<std::string> items = split_at_commas(text);
+    const std::vector<std::string> items = split(text, ',');
     if (items.size() != 4) fail_value("a window X,Y,W,H, four whole numbers", text);
     const auto number = [&](std::size_t item, std::uint64_t low, std::uint64_t high) {
         return static_cast<int>(parse_whole(items[item], low, high));
@@ -204,7 +190,7 @@ void parse_crop(Options& options, const std::string& text) {
 
 void parse_representations(Options& options, const std::string& text) {
     options.fields.clear();
-    for (const std::string& name : split_at_commas(text)) {
+    for (const std::string& name : split(text, ',')) {
         const auto field = parse_choice<Representation>(name);
         if (std::ranges::find(options.fields, field) == options.fields.end()) options.fields.push_back(field);
     }

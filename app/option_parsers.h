@@ -14,9 +14,6 @@ namespace pl {
 
 // Option values that are one of several words, or some of them.
 
-/// The items of "a,b,c".
-std::vector<std::string> split_at_commas(const std::string& text);
-
 /// "a, b or c"
 std::string one_of(const std::vector<std::string>& names);
 
@@ -63,9 +60,6 @@ std::vector<std::string> names_in(const Range& range, Name name) {
 }
 
 // Parsers of option values that take more than a line. Each throws Error(Usage) "expected ..., got '...'".
-
-/// For words of the contract that a later version will understand.
-[[noreturn]] void fail_not_yet(std::string_view what);
 
 std::vector<std::string> method_names();
 std::vector<std::string> view_names();

@@ -1,12 +1,12 @@
 #include "app/option_table.h"
 
 #include <algorithm>
-#include <sstream>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "app/options/groups.h"
+#include "app/parse_values.h"
 #include "core/base/error.h"
 
 namespace pl {
@@ -18,13 +18,6 @@ std::vector<OptionSpec> join_groups() {
                              camera_options(), field_options(), program_options()})
         table.insert(table.end(), group.begin(), group.end());
     return table;
-}
-
-std::vector<std::string> lines_of(const std::string& text) {
-    std::istringstream stream(text);
-    std::vector<std::string> lines;
-    for (std::string line; std::getline(stream, line);) lines.push_back(line);
-    return lines;
 }
 
 }  // namespace
@@ -52,9 +45,9 @@ void apply_option(const OptionSpec& spec, Options& options, const std::string& t
 
 std::vector<std::string> texts_apart(const OptionSpec& spec, const Options& options, const Options& others) {
     if (spec.print == nullptr) return {};
-    const std::vector<std::string> known = lines_of(spec.print(others));
+    const std::vector<std::string> known = split(spec.print(others), '\n');
     std::vector<std::string> texts;
-    for (const std::string& line : lines_of(spec.print(options)))
+    for (const std::string& line : split(spec.print(options), '\n'))
         if (!line.empty() && std::ranges::find(known, line) == known.end()) texts.push_back(line);
     return texts;
 }

@@ -103,7 +103,6 @@ struct Options {
     std::string scenes_folder;           ///< bench: of the suite
     std::string protocol{kNoPreset};     ///< bench: preset of options
     bool quick = false;                  ///< bench: preset of a short bench
-    bool effects = false;                ///< bench: compare kernels instead of methods
     double measure_percent = 1.0;        ///< bench: time for measuring, relative to the charged time
 
     bool flip = false;               ///< compare: also FLIP

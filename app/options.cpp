@@ -1,6 +1,7 @@
 #include "app/options.h"
 
 #include <algorithm>
+#include <array>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -20,13 +21,23 @@ struct Found {
     std::vector<GivenOption> given;
     std::string scene;
     std::vector<std::string> inputs;
-    bool help = false;
-    bool help_all = false;
-    bool version = false;
-    bool list_methods = false;
-    bool list_views = false;
-    bool licenses = false;
+    std::vector<const Question*> asked;
 };
+
+// clang-format off
+constexpr auto kQuestions = std::to_array<Question>({
+    {"-h,--help", "Print the usual options of the subcommand and exit",
+     [](Command command, bool) { return command_help(command, false); }},
+    {"--help-all", "Print all options of the subcommand and exit",
+     [](Command command, bool) { return command_help(command, true); }},
+    {"--version", "Print version, commit, compiler and back ends and exit",
+     [](Command, bool) { return version_text(); }},
+    {"--list-methods", "Print the methods and exit", [](Command, bool json) { return method_list(json); }},
+    {"--list-views", "Print the views and exit", [](Command, bool json) { return view_list(json); }},
+    {"--licenses", "Print the licences of the program and its parts and exit",
+     [](Command, bool) { return licenses_text(); }},
+});
+// clang-format on
 
 [[noreturn]] void fail(const std::string& message) { throw Error(ErrorKind::Usage, message); }
 
@@ -101,13 +112,8 @@ void add_options(CLI::App& app, Command command, Found& found) {
     app.allow_extras();
     for (const OptionSpec& spec : option_table())
         if (spec.commands.has(command)) add_option(app, spec, found);
-    // What is described here is part of the manual page and of completions, see parser_flags().
-    app.add_flag("-h,--help", found.help, "Print the usual options of the subcommand and exit");
-    app.add_flag("--help-all", found.help_all, "Print all options of the subcommand and exit");
-    app.add_flag("--version", found.version, "Print version, commit, compiler and back ends and exit");
-    app.add_flag("--list-methods", found.list_methods, "Print the methods and exit");
-    app.add_flag("--list-views", found.list_views, "Print the views and exit");
-    app.add_flag("--licenses", found.licenses, "Print the licences of the program and its parts and exit");
+    for (const Question& question : kQuestions)
+        app.add_flag_function(std::string(question.flags), [&](std::int64_t) { found.asked.push_back(&question); });
     switch (info_of(command).inputs) {
     case Inputs::Nothing: break;
     case Inputs::Scene: app.add_option("SCENE,--scene", found.scene)->take_last(); break;
@@ -148,22 +154,6 @@ Found parse(Command command, std::vector<std::string> arguments) {
     return found;
 }
 
-bool is_given(const Found& found, std::string_view name) {
-    return std::any_of(found.given.begin(), found.given.end(),
-                       [&](const GivenOption& given) { return given.spec->name == name; });
-}
-
-std::optional<std::string> answer_to(Command command, const Found& found) {
-    const bool json = is_given(found, "json");
-    if (found.help_all) return command_help(command, true);
-    if (found.help) return command_help(command, false);
-    if (found.version) return version_text();
-    if (found.list_methods) return method_list(json);
-    if (found.list_views) return view_list(json);
-    if (found.licenses) return licenses_text();
-    return std::nullopt;
-}
-
 void require_complete(Command command, const Options& options) {
     const bool needs_file = command == Command::Render || command == Command::Inspect || command == Command::Convert;
     const bool needs_folder =
@@ -202,16 +192,11 @@ void require_complete(Command command, const Options& options) {
 
 }  // namespace
 
-std::vector<ParserFlag> parser_flags(Command command) {
-    Found found;
-    CLI::App app;
-    add_options(app, command, found);
-    std::vector<ParserFlag> flags;
-    for (const CLI::Option* option : app.get_options())
-        if (!option->get_description().empty())
-            flags.push_back({option->get_name(false, true), option->get_description()});
-    return flags;
+bool is_given(const std::vector<GivenOption>& given, std::string_view name) {
+    return std::ranges::any_of(given, [&](const GivenOption& option) { return option.spec->name == name; });
 }
+
+std::span<const Question> all_questions() { return kQuestions; }
 
 CommandLine parse_command_line(const std::vector<std::string>& arguments) {
     CommandLine line;
@@ -225,9 +210,14 @@ CommandLine parse_command_line(const std::vector<std::string>& arguments) {
     const bool bare = rest.empty() || is_option(rest.front());
     line.command = take_command(rest);
     Found found = parse(line.command, rest);
-    line.answer = bare && found.help ? program_help() : answer_to(line.command, found);
     line.given = std::move(found.given);
-    if (line.answer) return line;
+    if (!found.asked.empty()) {
+        const Question& question = *found.asked.front();
+        line.answer = bare && &question == kQuestions.data()
+                          ? program_help()
+                          : question.answer(line.command, is_given(line.given, "json"));
+        return line;
+    }
     for (const GivenOption& given : line.given) apply_option(*given.spec, line.options, given.text);
     line.has_scene = !found.scene.empty();
     line.options.scene = found.scene.empty() && line.command == Command::View ? "cornell" : found.scene;

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "app/option_table.h"
@@ -29,12 +31,16 @@ struct CommandLine {
 /// nearest known one), a wrong value or a missing argument; Error(Input) for the camera file.
 CommandLine parse_command_line(const std::vector<std::string>& arguments);
 
-/// An option that the parser of a subcommand knows besides the options of the table.
-struct ParserFlag {
-    std::string flags;  ///< all spellings: "-h,--help"
-    std::string help;
+/// Whether an option of this name is among them.
+bool is_given(const std::vector<GivenOption>& given, std::string_view name);
+
+/// An option of every subcommand that is answered, after which the program ends.
+struct Question {
+    std::string_view flags;  ///< all spellings: "-h,--help"
+    std::string_view help;
+    std::string (*answer)(Command, bool json);
 };
-std::vector<ParserFlag> parser_flags(Command command);
+std::span<const Question> all_questions();
 
 /// Defaults, then the scene's camera and settings, then the given options. A loaded field brings its method and
 /// settings, of which only the lookup may be given otherwise. Throws Error(Usage) for options that exclude each

@@ -24,17 +24,17 @@ std::optional<T> read(std::string_view text) {
     return value;
 }
 
-std::vector<std::string_view> split(std::string_view text, char separator) {
-    std::vector<std::string_view> parts;
+}  // namespace
+
+std::vector<std::string> split(std::string_view text, char separator) {
+    std::vector<std::string> parts;
     for (;;) {
         const std::size_t at = text.find(separator);
-        parts.push_back(text.substr(0, at));
+        parts.emplace_back(text.substr(0, at));
         if (at == std::string_view::npos) return parts;
         text.remove_prefix(at + 1);
     }
 }
-
-}  // namespace
 
 void fail_value(std::string_view expected, std::string_view got) {
     throw Error(ErrorKind::Usage, fmt::format("expected {}, got '{}'", expected, got));
@@ -64,7 +64,7 @@ float parse_float(std::string_view text) {
 std::vector<float> parse_floats(std::string_view text, std::initializer_list<std::size_t> counts,
                                 std::string_view expected) {
     std::vector<float> values;
-    for (const std::string_view part : split(text, ',')) {
+    for (const std::string& part : split(text, ',')) {
         const auto value = read<float>(part);
         if (!value || !std::isfinite(*value)) fail_value(expected, text);
         values.push_back(*value);
@@ -85,7 +85,7 @@ bool parse_switch(std::string_view text) {
 
 glm::ivec2 parse_size(std::string_view text) {
     const std::string expected = fmt::format("WIDTHxHEIGHT, each from 1 to {}", kMaxImageSide);
-    const std::vector<std::string_view> parts = split(text, 'x');
+    const std::vector<std::string> parts = split(text, 'x');
     glm::ivec2 size{0};
     for (std::size_t i = 0; i < parts.size() && i < 2; ++i)
         size[static_cast<int>(i)] = read<int>(parts[i]).value_or(0);

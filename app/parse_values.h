@@ -15,6 +15,9 @@ namespace pl {
 
 [[noreturn]] void fail_value(std::string_view expected, std::string_view got);
 
+/// The parts between separators, at least one.
+std::vector<std::string> split(std::string_view text, char separator);
+
 /// Whole number within [low, high].
 std::uint64_t parse_whole(std::string_view text, std::uint64_t low, std::uint64_t high);
 /// Finite decimal number within [low, high]. `instead` names further values in the error message, such as ", or

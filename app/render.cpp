@@ -34,12 +34,11 @@ std::string target_text(const ErrorTarget* target) {
 /// Throws Error(Threshold) if another limit ended the rendering before the target was met.
 void require_low_error(ErrorTarget* target, const RunOutcome& outcome) {
     if (target == nullptr || target->is_low_enough()) return;
-    throw Error(
-        ErrorKind::Threshold,
-        fmt::format("--target-error: expected noise of at most {:.3g} as relMSE, got {} when --{} was reached",
-                    target->target(),
-                    target->measured() ? fmt::format("{:.3g}", *target->measured()) : "none that is known",
-                    name_of(outcome.ended_by)));
+    throw Error(ErrorKind::Threshold,
+                fmt::format("--target-error: expected noise of at most {:.3g} as relMSE, got {} when {} was reached",
+                            target->target(),
+                            target->measured() ? fmt::format("{:.3g}", *target->measured()) : "none that is known",
+                            label_of(outcome.ended_by)));
 }
 
 void report(const Snapshot& snapshot, const Options& options, const Json& stats, bool interrupted,
@@ -111,7 +110,7 @@ int run_render(const CommandLine& line, Console& console) {
     const Json stats = stats_json(session, snapshot, options, outcome, aim);
     const ImageMetadata metadata = metadata_of(session, snapshot, stats, command, outcome.interrupted());
     write_picture(options.output, snapshot, options.display, metadata, console);
-    if (!options.stats_file.empty()) write_text_file_atomic(options.stats_file, stats.dump(2) + "\n");
+    if (!options.stats_file.empty()) write_file_atomic(options.stats_file, stats.dump(2) + "\n");
     fields.save(session, options, console);
     report(snapshot, options, stats, outcome.interrupted(), aim, checkpoints, console);
     if (outcome.interrupted()) return kExitInterrupted;

@@ -47,7 +47,7 @@ public:
     void report() {
         if (!options_.stats_file.empty()) {
             stats_["frames"] = rows_;
-            write_text_file_atomic(options_.stats_file, stats_.dump(2) + "\n");
+            write_file_atomic(options_.stats_file, stats_.dump(2) + "\n");
         }
         console_.event("done", {{"output", options_.output}, {"frames", written_}, {"interrupted", !is_complete()}});
         if (!is_complete())

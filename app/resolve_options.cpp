@@ -148,16 +148,11 @@ void settle_representation(Options& options) {
     options.backend = "cpu";
 }
 
-bool is_given(const CommandLine& line, std::string_view name) {
-    return std::any_of(line.given.begin(), line.given.end(),
-                       [&](const GivenOption& option) { return option.spec->name == name; });
-}
-
 /// An inspection needs a learned field, so it does not inherit a method without one from the scene.
 void settle_inspection(const CommandLine& line, Options& options) {
     options.render.view = View::Beauty;
     if (info_of(options.render.method).uses_field) return;
-    if (is_given(line, "method"))
+    if (is_given(line.given, "method"))
         throw Error(ErrorKind::Usage, fmt::format("--method {}: learns nothing that could be inspected: expected {}",
                                                   info_of(options.render.method).name, field_method_choices()));
     options.render.method = MethodId::Reinforcement;
@@ -167,7 +162,7 @@ void settle_inspection(const CommandLine& line, Options& options) {
 void settle_target(const CommandLine& line, Options& options) {
     const bool renders = makes_pictures(line.command);
     const bool has_error = options.render.view == View::Beauty;
-    if (!is_given(line, "target-error")) {
+    if (!is_given(line.given, "target-error")) {
         if (!renders || !has_error) options.target_error.reset();
     } else if (renders && !has_error) {
         throw Error(ErrorKind::Usage, fmt::format("--target-error: expected --view {}, whose error is known, got {}",
@@ -177,16 +172,16 @@ void settle_target(const CommandLine& line, Options& options) {
 
 /// Limits of a scene's settings, made for a good picture, are no limits of a measurement.
 void forget_scene_limits(const CommandLine& line, Options& options) {
-    if (!is_given(line, "time-limit")) options.time_limit_seconds.reset();
-    if (!is_given(line, "spp")) options.spp.reset();
+    if (!is_given(line.given, "time-limit")) options.time_limit_seconds.reset();
+    if (!is_given(line.given, "spp")) options.spp.reset();
 }
 
 /// A reference shows radiance, whatever view the scene prefers, and has its own default of samples.
 void settle_reference(const CommandLine& line, Options& options) {
     options.render.view = View::Beauty;
     constexpr std::uint32_t kReferenceSpp = 4096;
-    if (!is_given(line, "method")) options.render.method = MethodId::Default;
-    if (!is_given(line, "nee")) options.render.next_event = true;
+    if (!is_given(line.given, "method")) options.render.method = MethodId::Default;
+    if (!is_given(line.given, "nee")) options.render.next_event = true;
     forget_scene_limits(line, options);
     if (!options.spp && !options.time_limit_seconds) options.spp = kReferenceSpp;
 }

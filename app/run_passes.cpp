@@ -103,18 +103,6 @@ private:
 
 }  // namespace
 
-std::string_view name_of(EndedBy end) {
-    switch (end) {
-    case EndedBy::Nothing: return "nothing";
-    case EndedBy::Spp: return "spp";
-    case EndedBy::TimeLimit: return "time-limit";
-    case EndedBy::TargetError: return "target-error";
-    case EndedBy::Learned: return "learned";
-    case EndedBy::Interruption: return "interruption";
-    }
-    return "nothing";
-}
-
 void announce(const Session& session, Console& console) {
     const BackendInfo backend = session.backend();
     const FilmSlot slot = slot_of(session.settings());

@@ -1,10 +1,12 @@
 // The loop of every subcommand without a window: passes until a limit is reached or the run is interrupted.
 #pragma once
 
+#include <array>
 #include <functional>
 
 #include "app/console.h"
 #include "app/state_files.h"
+#include "core/base/choice.h"
 #include "core/base/progress.h"
 #include "core/measure/error_target.h"
 #include "core/session/session.h"
@@ -16,11 +18,18 @@ enum class Until {
     Learned,   ///< the same, but a complete precomputed map is enough
 };
 
+/// The option whose limit was reached, or another reason; nothing if there was no pass to render.
 enum class EndedBy { Nothing, Spp, TimeLimit, TargetError, Learned, Interruption };
 
-/// The option whose limit was reached: "spp", "time-limit", "target-error"; else "learned", "interruption", or
-/// "nothing" if there was no pass to render.
-std::string_view name_of(EndedBy end);
+template <>
+inline constexpr auto kChoices<EndedBy> = std::to_array<ChoiceInfo<EndedBy>>({
+    {EndedBy::Nothing, "nothing", "nothing"},
+    {EndedBy::Spp, "spp", "--spp"},
+    {EndedBy::TimeLimit, "time-limit", "--time-limit"},
+    {EndedBy::TargetError, "target-error", "--target-error"},
+    {EndedBy::Learned, "learned", "learned"},
+    {EndedBy::Interruption, "interruption", "interruption"},
+});
 
 struct RunOutcome {
     EndedBy ended_by = EndedBy::Nothing;

@@ -46,6 +46,31 @@ ByteImage draw_in_scene(Session& session, std::int32_t volume, const Options& op
                              options.drawn == HemisphereDisplay::Dome ? ui::LobeShape::Dome : ui::LobeShape::Lobe);
 }
 
+ByteImage draw_discs(const VolumeInspection& volume, const CameraDescription& camera,
+                     const std::vector<std::string>& lines, const LightReport* truth) {
+    std::vector<std::pair<ui::ShownDisc, ValueRange>> discs;
+    const auto add = [&](std::initializer_list<ui::ShownDisc> row) {
+        std::vector<float> all;
+        for (const ui::ShownDisc& disc : row) all.insert(all.end(), disc.values.begin(), disc.values.end());
+        for (const ui::ShownDisc& disc : row) discs.emplace_back(disc, range_of(all, {}));
+    };
+    if (truth == nullptr) {
+        add({{"incident radiance", volume.radiance}});
+        add({{"probability", volume.probability}});
+        add({{"visits", {volume.visits.begin(), volume.visits.end()}}});
+    } else {
+        add({{"learned radiance", volume.radiance},
+             {fmt::format("true radiance, {}", name_of(truth->target)), truth->light.target}});
+        add({{"density of guided paths", ui::relative_to_cosine(truth->mixture_shares)},
+             {"product with the BSDF", ui::relative_to_cosine(truth->product_shares)}});
+    }
+    return painter().discs(volume, camera, lines, discs, truth == nullptr ? 520.0f : 380.0f);
+}
+
+ByteImage draw_gains(Session& session, FilmSlot slot, const TileGains& gains, const DisplaySettings& display) {
+    return painter().gains(ui::frame_of(session, slot, display), gains);
+}
+
 ByteImage draw_path_lines(Session& session, const std::vector<diagnose::PathRecord>& paths, const Options& options) {
     diagnose::PixelPaths drawn;
     drawn.plain = paths;
@@ -99,6 +124,11 @@ void require_viewer_code(const std::string& option) {
 }
 
 ByteImage draw_in_scene(Session&, std::int32_t, const Options&) { return {}; }
+ByteImage draw_discs(const VolumeInspection&, const CameraDescription&, const std::vector<std::string>&,
+                     const LightReport*) {
+    return {};
+}
+ByteImage draw_gains(Session&, FilmSlot, const TileGains&, const DisplaySettings&) { return {}; }
 ByteImage draw_path_lines(Session&, const std::vector<diagnose::PathRecord>&, const Options&) { return {}; }
 struct FieldPast::Kept {};
 FieldPast::FieldPast() = default;

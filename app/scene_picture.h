@@ -3,12 +3,14 @@
 
 #include <filesystem>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "app/options.h"
 #include "core/diagnose/record_path.h"
 #include "core/inspect/guiding_figures.h"
 #include "core/io/image.h"
+#include "core/measure/gain.h"
 #include "core/session/session.h"
 
 namespace pl {
@@ -19,7 +21,16 @@ void require_viewer_code(const std::string& option);
 /// The first surfaces as the camera sees them, lit by light samples of a few passes, with a volume as Options::drawn says.
 ByteImage draw_in_scene(Session& session, std::int32_t volume, const Options& options);
 
-/// The same with paths of a pixel as lines.
+/// The hemisphere of a volume as discs below lines of text, each over its own values: learned radiance, probability and visits. With a `truth`
+/// the learned beside the true radiance, and the density of guided paths beside the density that leaves no variance, both relative to cosine
+/// sampling: those of a row on one scale.
+ByteImage draw_discs(const VolumeInspection& volume, const CameraDescription& camera,
+                     const std::vector<std::string>& lines, const LightReport* truth);
+
+/// A film that has a pass, with a mark for each tile.
+ByteImage draw_gains(Session& session, FilmSlot slot, const TileGains& gains, const DisplaySettings& display);
+
+/// The same surfaces as draw_in_scene() shows, with paths of a pixel as lines.
 ByteImage draw_path_lines(Session& session, const std::vector<diagnose::PathRecord>& paths, const Options& options);
 
 /// A volume at one of the key frames of a field.

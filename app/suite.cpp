@@ -72,7 +72,7 @@ const Row& row_named(std::span<const Row> rows, const std::string& name) {
 }
 
 void add_unless_given(CommandLine& line, std::string_view name, const std::string& text) {
-    if (std::ranges::any_of(line.given, [&](const GivenOption& given) { return given.spec->name == name; })) return;
+    if (is_given(line.given, name)) return;
     const auto spec = std::ranges::find_if(option_table(), [&](const OptionSpec& option) {
         return option.name == name && option.commands.has(Command::Bench);
     });

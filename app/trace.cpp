@@ -84,8 +84,7 @@ int trace_picture(Session& session, const Options& options, const InterruptGuard
                                           outcome.interrupted()),
                               interrupt, console);
     }
-    if (is_complete && !options.gain_file.empty())
-        is_complete = write_gain(session, snapshot, options, interrupt, console);
+    if (is_complete && !options.gain_file.empty()) is_complete = write_gain(session, options, interrupt, console);
     return is_complete ? 0 : kExitInterrupted;
 }
 

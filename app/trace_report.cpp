@@ -9,17 +9,6 @@
 namespace pl {
 namespace {
 
-std::string ending_text(diagnose::PathEnd end) {
-    switch (end) {
-    case diagnose::PathEnd::Escaped: return "no surface is met";
-    case diagnose::PathEnd::Absorbed: return "the surface reflects nothing";
-    case diagnose::PathEnd::Roulette: return "Russian roulette";
-    case diagnose::PathEnd::DepthLimit: return "--max-depth is reached";
-    case diagnose::PathEnd::ZeroDirection: return "the sampled direction has f cos = 0";
-    }
-    return "";
-}
-
 std::string surface_text(const diagnose::VertexRecord& vertex, const SceneDescription& scene) {
     std::string text =
         fmt::format("  position    {}, distance {}\n", print_vector(vertex.position), print_float(vertex.distance));
@@ -157,7 +146,7 @@ std::string path_text(const TracedPath& traced) {
                     traced.settings.seed, info_of(traced.settings.method).name, path.is_guided ? ", guided" : "");
     for (std::size_t i = 0; i < path.vertices.size(); ++i)
         text += fmt::format("vertex {}{}", i, vertex_text(path.vertices[i], traced.scene));
-    return text + fmt::format("  end         {}\nradiance {}; segments {}, shadow rays {}\n", ending_text(path.end),
+    return text + fmt::format("  end         {}\nradiance {}; segments {}, shadow rays {}\n", label_of(path.end),
                               print_vector(path.radiance), path.segments, path.shadow_rays);
 }
 

@@ -69,12 +69,6 @@ std::string command_of(const ui::ViewerPicture& picture, const Options& opened, 
     return command_text(Command::Replay, shown, defaults);
 }
 
-bool has_size(const CommandLine& line) {
-    return std::any_of(line.given.begin(), line.given.end(), [](const GivenOption& given) {
-        return given.spec->name == "size" || given.spec->name == "width" || given.spec->name == "height";
-    });
-}
-
 /// Whether the command line asks for no picture of its own.
 bool is_free(const CommandLine& line) {
     return !line.has_scene && std::ranges::none_of(line.given, [](const GivenOption& given) {
@@ -94,7 +88,8 @@ ui::ViewerOptions viewer_options(const CommandLine& line, const Options& options
     viewer.scene = loaded.scene;
     viewer.load_seconds = loaded.load_seconds;
     viewer.camera_from_scene = false;  // resolved already
-    viewer.size_from_window = !has_size(line);
+    viewer.size_from_window =
+        !(is_given(line.given, "size") || is_given(line.given, "width") || is_given(line.given, "height"));
     if (options.window) viewer.window = {.width = options.window->x, .height = options.window->y};
     viewer.window.ui_scale = options.ui_scale;
     viewer.software = options.software;

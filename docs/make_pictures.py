@@ -36,11 +36,11 @@ RENDERINGS = {
 # Of the animation: scene and options, the seconds of each frame, the place of the volume, and where `inspect` draws its disc.
 LEARNING = ["door", "--nee", "off", "--size", "260x260", "--threads", "1"]
 SECONDS = [0.1, 0.2, 0.4, 0.8, 1.6, 3.2]
-PLACE, DISC = ["--pixel", "150,225"], (24, 180, 520, 520)
+PLACE, DISC = ["--pixel", "150,225"], (24, 210, 520, 520)
 # Of the cells: options, passes, and where `inspect --truth` draws the learned and the true disc: x, y, width, height.
 CELLS = ["cornell", "--nee", "off", "--at", "400,0,200", "--size", "256x256", "--truth"]
 PASSES = [1, 4, 16, 64]
-LEARNED, TRUE = (20, 264, 388, 396), (448, 264, 388, 396)
+LEARNED, TRUE = (20, 270, 388, 396), (523, 270, 388, 396)
 COLORS = 256
 SCENES = DOCS.parent / "assets" / "scenes"
 SCENE_OPTIONS = ["--method", "reinforcement", "--nee", "on", "--spp", "512", "--size", "128x128"]

@@ -18,16 +18,6 @@ struct Outcome {
     PassCounters counters{};
 };
 
-/// The scalars of a scene.
-struct SceneScalars {
-    float light_power = 0.0f;
-    Vec3f environment{0.0f};
-    FarLights far_lights;
-    float far_probability = 0.0f;
-    float delta_probability = 0.0f;
-    double longest_edge = 0.0;
-};
-
 bool is_power_of_two(std::uint32_t n) { return n >= 2 && (n & (n - 1)) == 0; }
 
 /// Whether emission is refined after the samples of a pass, see camera_emission.h.
@@ -102,16 +92,10 @@ void RankWork::take_scene(Payload& payload) {
     auto received = std::make_shared<HostScene>();
     const HostScene none;
     const HostScene& sent = payload.scene ? *payload.scene : none;
-    SceneScalars scalars{sent.light_power,     sent.environment,       sent.far_lights,
-                         sent.far_probability, sent.delta_probability, sent.longest_edge};
+    SceneScalars scalars = sent;
     zip(sent, *received, [&](const auto& from, auto& to) { broadcast_array(ranks_, from, to); });
     ranks_.broadcast(bytes_of_value(scalars));
-    received->light_power = scalars.light_power;
-    received->environment = scalars.environment;
-    received->far_lights = scalars.far_lights;
-    received->far_probability = scalars.far_probability;
-    received->delta_probability = scalars.delta_probability;
-    received->longest_edge = scalars.longest_edge;
+    static_cast<SceneScalars&>(*received) = scalars;
     scene_ = payload.scene ? payload.scene : std::move(received);
     locally([&] { backend_->upload_scene(scene_); });
 }

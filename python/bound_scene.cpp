@@ -79,7 +79,7 @@ BoundScene scene_from_arrays(const Vectors& vertices, const Indices& triangles, 
     validate_scene(scene);
     set_default_camera(scene);
     CameraChoice choice;
-    read_camera_parts(JsonDocument(json_text(camera), "camera"), choice);
+    read_camera_parts(JsonDocument(json_text(camera), "camera"), "", choice);
     scene.camera = replaced(scene.camera, choice);
     validate_scene(scene);
     scene.camera.up = usable_up(scene.camera);

@@ -3,11 +3,14 @@
 
 #include <filesystem>
 #include <memory>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "core/io/image.h"
 #include "ui/draw/lobes.h"
 #include "ui/model/light_tracing.h"
+#include "ui/model/shown_volumes.h"
 #include "ui/worker/field_history.h"
 #include "ui/worker/published_frame.h"
 
@@ -28,6 +31,12 @@ public:
     ByteImage flowers(const PublishedFrame& frame, const FieldKeyFrame& field) const;
     /// Paths as lines; the brightest wide, with its shadow rays and the numbers of its vertices.
     ByteImage paths(const PublishedFrame& frame, const diagnose::PixelPaths& paths) const;
+    /// Lines of text, and below them discs of a volume in two columns, each with the legend of its range. `diameter` in pixels.
+    ByteImage discs(const VolumeInspection& volume, const CameraDescription& camera,
+                    const std::vector<std::string>& lines, const std::vector<std::pair<ShownDisc, ValueRange>>& discs,
+                    float diameter) const;
+    /// Marks of gains and losses, one for each tile.
+    ByteImage gains(const PublishedFrame& frame, const TileGains& gains) const;
     /// Divergences and variance factor over the passes. Size in pixels.
     ByteImage figures(const std::vector<FigurePoint>& points, int width, int height) const;
 

@@ -14,7 +14,6 @@
 #include "app/suite.h"
 #include "app/version.h"
 #include "core/bench/bench_results.h"
-#include "core/bench/effect_costs.h"
 
 namespace pl {
 namespace {
@@ -63,7 +62,10 @@ int report(const bench::BenchResults& results, const std::optional<bench::BenchR
     return 0;
 }
 
-int run_methods(const CommandLine& line, const CommandLine& typed, Console& console) {
+}  // namespace
+
+int run_bench(const CommandLine& typed, Console& console) {
+    const CommandLine line = expanded(typed, console);
     const Options& options = line.options;
     const InterruptGuard interrupt;
     std::optional<ProgressDisplay> progress;
@@ -90,35 +92,6 @@ int run_methods(const CommandLine& line, const CommandLine& typed, Console& cons
     const bench::BenchResults results = bench.run();
     progress.reset();
     return report(results, earlier, options, console);
-}
-
-void tell_cost(const bench::EffectCost& cost, Console& console) {
-    console.result(fmt::format("{:<36} {:<8} {:.3f} [{:.3f}, {:.3f}] {:6.0f} ns  {}\n", cost.cell.title(),
-                               cost.is_needed ? "needed" : "larger", cost.ratio.value, cost.ratio.low,
-                               cost.ratio.high, cost.nanoseconds, cost.effects_text()));
-}
-
-int run_effects(const CommandLine& line, Console& console) {
-    const bench::BenchPlan plan = make_bench_plan(line, console);
-    const InterruptGuard interrupt;
-    const auto costs = bench::measure_effect_costs(
-        plan, [&](const std::string& name) { return make_own_backend(name, line.options.threads); }, interrupt.flag(),
-        [&](const bench::EffectCost& cost) { tell_cost(cost, console); });
-    if (!costs) {
-        console.log().warning("interrupted: nothing was written");
-        return kExitInterrupted;
-    }
-    bench::write_effect_costs(line.options.output, *costs);
-    console.event("done", {{"output", line.options.output}, {"costs", costs->size()}});
-    console.remark(fmt::format("{}: effects.json, effects.md\n", line.options.output));
-    return 0;
-}
-
-}  // namespace
-
-int run_bench(const CommandLine& line, Console& console) {
-    const CommandLine whole = expanded(line, console);
-    return line.options.effects ? run_effects(whole, console) : run_methods(whole, line, console);
 }
 
 }  // namespace pl

@@ -10,6 +10,7 @@
 #include "app/option_parsers.h"
 #include "core/base/error.h"
 #include "core/fields/field_kernels.h"
+#include "core/scene/scene_hash.h"
 
 namespace pl {
 namespace {
@@ -40,6 +41,7 @@ bench::BenchScene open_bench_scene(const CommandLine& given, const std::string& 
             .description = loaded.scene,
             .load_seconds = loaded.load_seconds,
             .settings = options.render,
+            .content = bench::content_of(scene_hash(*loaded.scene), options.render),
             .limits = {.spp = options.spp_limit(),
                        .seconds = options.time_limit_seconds,
                        .target_error = options.target_error,

@@ -93,10 +93,6 @@ constexpr auto kComparisonOptions = std::to_array<OptionSpec>({
     {.name = "quick", .flags = "--quick", .value = "", .group = kCompared,
      .help = "A short bench: three scenes of a suite, and these options, over those of a protocol and under those that are given",
      .commands = CommandSet(Command::Bench), .parse = parse_flag<&Options::quick>, .values = describe_quick},
-    {.name = "effects", .flags = "--effects", .value = "", .group = kCompared,
-     .help = "Compare kernels instead of methods: the one that a scene needs, and those compiled for more "
-             "effects; --seeds is the number of rounds",
-     .is_expert = true, .commands = CommandSet(Command::Bench), .parse = parse_flag<&Options::effects>},
     {.name = "seeds", .flags = "--seeds", .value = "N", .group = kCompared,
      .help = "Runs of each method on each scene and back end (default 10); intervals need at least 5",
      .commands = CommandSet(Command::Bench),

@@ -46,7 +46,7 @@ constexpr auto kLearnValues = std::to_array<OptionSpec>({
 
 /// "NAME=VALUE", or several with commas between.
 void parse_learning(Options& options, const std::string& text) {
-    for (const std::string& item : split_at_commas(text)) {
+    for (const std::string& item : split(text, ',')) {
         const std::size_t equals = item.find('=');
         const std::string name = item.substr(0, equals);
         const auto known = std::ranges::find(kLearnValues, name, &OptionSpec::name);

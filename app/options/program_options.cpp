@@ -51,9 +51,6 @@ constexpr auto kLimitOptions = std::to_array<OptionSpec>({
              "samples per pixel on. Exit with 5 if pictures reach another limit first",
      .commands = CommandSet(Command::Replay), .parse = parse_target_error,
      .print = [](const Options& o) { return o.target_error ? print_real(*o.target_error) : ""; }},
-    {.name = "target-error", .flags = "--target-error", .value = "X", .group = kHidden, .help = "",
-     .commands = CommandSet(Command::View, Command::Inspect),
-     .parse = [](Options&, Text) { fail_not_yet("stop by --spp or --time-limit"); }},
     {.name = "target-error", .flags = "--target-error", .value = "X", .group = kOutcome,
      .help = "Exit with 5 if relMSE is above this",
      .commands = CommandSet(Command::Compare), .parse = parse_target_error},
@@ -90,8 +87,6 @@ constexpr auto kProgramOptions = std::to_array<OptionSpec>({
     {.name = "no-progress", .flags = "--no-progress", .value = "", .group = kMessages,
      .help = "No progress bar, no progress lines",
      .is_expert = true, .commands = kWorking, .parse = parse_flag<&Options::no_progress>},
-    {.name = "headless", .flags = "--headless,--no-gui", .value = "", .group = kHidden, .help = "",
-     .commands = kHeadless, .parse = [](Options&, Text) {}},
 
     {.name = "window", .flags = "--window", .value = "WxH", .group = kViewer, .help = "Window size (default: what fits the screen, at most 1440x900 times the scale)",
      .commands = CommandSet(Command::View), .parse = parse_window},

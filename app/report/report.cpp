@@ -11,10 +11,9 @@ int run_report(const CommandLine& line, Console& console) {
     const bench::BenchFolder folder(line.options.inputs.front());
     const bench::BenchResults results = bench::read_results(folder.path() / "results.json");
     const std::vector<NamedPlot> plots = convergence_plots(results);
-    for (const NamedPlot& plot : plots)
-        write_text_file_atomic(folder.path() / (plot.file + ".svg"), svg_plot(plot.plot));
+    for (const NamedPlot& plot : plots) write_file_atomic(folder.path() / (plot.file + ".svg"), svg_plot(plot.plot));
     const std::filesystem::path page = folder.path() / "report.html";
-    write_text_file_atomic(page, report_page(results, plots, picture_data(folder, results)));
+    write_file_atomic(page, report_page(results, plots, picture_data(folder, results)));
     console.remark(
         fmt::format("{}: {} runs, {} plots beside it\n", page.string(), results.runs.size(), plots.size()));
     console.event("done", {{"output", page.string()}, {"runs", results.runs.size()}, {"plots", plots.size()}});

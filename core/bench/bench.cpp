@@ -8,7 +8,6 @@
 
 #include "core/bench/reference_store.h"
 #include "core/measure/flip.h"
-#include "core/scene/scene_hash.h"
 
 namespace pl::bench {
 namespace {
@@ -75,7 +74,7 @@ void Bench::take_references() {
     const ReferenceStore store(folder_.references());
     for (BenchScene& scene : settings_.plan.scenes) {
         if (scene.reference) continue;
-        std::optional<Reference> found = store.find(content_of(scene_hash(*scene.description), scene.settings));
+        std::optional<Reference> found = store.find(scene.content);
         if (found && std::min(found->halves[0].spp, found->halves[1].spp) >= settings_.reference_spp)
             scene.reference = std::make_shared<const Reference>(*std::move(found));
     }
@@ -85,8 +84,7 @@ void Bench::take_references() {
 void Bench::find_references() {
     const ReferenceStore store(settings_.reference_folder);
     for (BenchScene& scene : settings_.plan.scenes)
-        scene.reference = std::make_shared<const Reference>(
-            store.require(content_of(scene_hash(*scene.description), scene.settings)));
+        scene.reference = std::make_shared<const Reference>(store.require(scene.content));
 }
 
 /// In the bench's own folder. False if stopped.

@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 
 #include "core/io/json_file.h"
-#include "core/scene/scene_hash.h"
 
 namespace pl::bench {
 namespace {
@@ -98,7 +97,7 @@ constexpr std::uint64_t kOrderSeed = 1;
 Json scene_json(const BenchScene& scene) {
     return {{"name", scene.name},
             {"scene", scene.source},
-            {"picture_hash", content_of(scene_hash(*scene.description), scene.settings).picture_hash},
+            {"picture_hash", scene.content.picture_hash},
             {"settings", scene.options}};
 }
 

@@ -60,6 +60,7 @@ struct BenchScene {
     std::shared_ptr<const SceneDescription> description;
     double load_seconds = 0.0;
     RenderSettings settings;                     ///< of every run, except method and seed
+    PictureContent content;                      ///< of the scene with these settings
     RunLimits limits;                            ///< of every run
     Json options;                                ///< the settings and limits in words, for the plan's file
     std::shared_ptr<const Reference> reference;  ///< null until found or made

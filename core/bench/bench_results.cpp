@@ -211,10 +211,10 @@ void write_results(const BenchFolder& folder, const BenchResults& results) {
                      {"summary", summary_json(results.summary)},
                      {"comparisons", comparisons_json(results.summary)},
                      {"runs", runs}});
-    write_text_file_atomic(folder.path() / "series.csv", series_csv(results.runs));
-    write_text_file_atomic(folder.path() / "summary.csv", summary_csv(results.summary));
-    write_text_file_atomic(folder.path() / "summary.md", summary_markdown(results.summary));
-    write_text_file_atomic(folder.path() / "summary.tex", summary_latex(results.summary));
+    write_file_atomic(folder.path() / "series.csv", series_csv(results.runs));
+    write_file_atomic(folder.path() / "summary.csv", summary_csv(results.summary));
+    write_file_atomic(folder.path() / "summary.md", summary_markdown(results.summary));
+    write_file_atomic(folder.path() / "summary.tex", summary_latex(results.summary));
 }
 
 std::string utc_date() {

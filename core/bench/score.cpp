@@ -35,8 +35,7 @@ public:
     explicit ScoreFile(const fs::path& folder)
         : folder_(folder), file_(read_text_file(folder / kScoreFile), folder / kScoreFile) {
         file_.object("", {"schema", "device", "references", "methods", "pictures"});
-        if (const std::string schema = file_.text("/schema").value_or("none"); schema != kScoreSchema)
-            file_.fail("/schema", fmt::format("expected \"{}\", got \"{}\"", kScoreSchema, schema));
+        file_.require_schema(kScoreSchema);
     }
 
     const JsonDocument& file() const { return file_; }

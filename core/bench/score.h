@@ -10,7 +10,7 @@
 namespace pl::bench {
 
 inline constexpr std::string_view kScoreFile = "score.json";
-inline constexpr std::string_view kScoreSchema = "pathlight.score/1";
+inline constexpr const char* kScoreSchema = "pathlight.score/1";
 
 struct ScoredPictures {
     BenchResults results;

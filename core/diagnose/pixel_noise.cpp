@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
 #include "core/base/timer.h"
 #include "core/diagnose/record_path.h"
 #include "core/diagnose/replay_path.h"
@@ -9,18 +11,9 @@
 namespace pl::diagnose {
 namespace {
 
-FoundBy found_by(Technique technique) {
-    switch (technique) {
-    case Technique::Bsdf: return FoundBy::Bsdf;
-    case Technique::Field: return FoundBy::Field;
-    case Technique::Delta: return FoundBy::Delta;
-    }
-    return FoundBy::Bsdf;
-}
-
 /// The technique of the direction that leads to a vertex.
-FoundBy arrival_at(const PathRecord& path, std::uint32_t index) {
-    return index == 0 ? FoundBy::Camera : found_by(path.vertices[index - 1].scattered->technique);
+Technique arrival_at(const PathRecord& path, std::uint32_t index) {
+    return index == 0 ? Technique::Camera : path.vertices[index - 1].scattered->technique;
 }
 
 }  // namespace
@@ -37,7 +30,7 @@ std::vector<Contribution> contributions_of(const PathRecord& path) {
             add({.found_by = arrival_at(path, i), .bounces = i, .is_distant = vertex.is_escape},
                 vertex.emission.contribution);
         if (vertex.light)
-            add({.found_by = FoundBy::LightSampling,
+            add({.found_by = Technique::LightSampling,
                  .bounces = i + 1,
                  .is_distant = !vertex.light->position.has_value()},
                 vertex.light->contribution);
@@ -45,10 +38,14 @@ std::vector<Contribution> contributions_of(const PathRecord& path) {
     return all;
 }
 
+std::string bounce_name(std::size_t bounces) {
+    return bounces + 1 < kBounceClasses ? fmt::format("{}", bounces) : fmt::format("{} or more", bounces);
+}
+
 namespace {
 
-constexpr std::size_t kFirstBounce = kFoundByCount;
-constexpr std::size_t kFirstLight = kFoundByCount + kBounceClasses;
+constexpr std::size_t kFirstBounce = kTechniqueCount;
+constexpr std::size_t kFirstLight = kTechniqueCount + kBounceClasses;
 
 /// A run of the jackknife is a pair of groups.
 constexpr std::size_t kRuns = kJackknifeGroups / 2;
@@ -131,7 +128,7 @@ PixelEstimate NoiseSums::estimate() const {
                          .seconds_per_path = seconds_per_path(kAllGroups)};
     if (!(result.variance.value > 0.0)) return result;
     NoiseShares& shares = result.shares.emplace();
-    for (std::size_t i = 0; i < kFoundByCount; ++i) shares.found_by[i] = share(i);
+    for (std::size_t i = 0; i < kTechniqueCount; ++i) shares.found_by[i] = share(i);
     for (std::size_t i = 0; i < kBounceClasses; ++i) shares.bounces[i] = share(kFirstBounce + i);
     for (std::size_t i = 0; i < shares.lights.size(); ++i) shares.lights[i] = share(kFirstLight + i);
     return result;

@@ -4,10 +4,9 @@
 #include <array>
 #include <optional>
 #include <span>
-#include <string_view>
+#include <string>
 #include <vector>
 
-#include "core/base/choice.h"
 #include "core/diagnose/pixel_paths.h"
 #include "core/diagnose/record_path.h"
 #include "core/measure/gain.h"
@@ -17,35 +16,8 @@ namespace pl::diagnose {
 
 // The parts of a path's radiance: the technique that found each, its bounces, and its light.
 
-/// The technique that found the light of a contribution.
-enum class FoundBy : std::uint32_t {
-    Camera,         ///< the camera ray met it
-    LightSampling,  ///< a light sample
-    Bsdf,           ///< a direction sampled by the BSDF without its delta lobes
-    Field,          ///< a direction sampled by the guiding field
-    Delta,          ///< a direction of a delta lobe
-};
-inline constexpr std::size_t kFoundByCount = 5;
-
-}  // namespace pl::diagnose
-
-namespace pl {
-
-template <>
-inline constexpr auto kChoices<diagnose::FoundBy> = std::to_array<ChoiceInfo<diagnose::FoundBy>>({
-    {diagnose::FoundBy::Camera, "seen", "seen directly"},
-    {diagnose::FoundBy::LightSampling, "light", "light samples"},
-    {diagnose::FoundBy::Bsdf, "bsdf", "BSDF sampling"},
-    {diagnose::FoundBy::Field, "field", "guided sampling"},
-    {diagnose::FoundBy::Delta, "delta", "delta lobes"},
-});
-
-}  // namespace pl
-
-namespace pl::diagnose {
-
 struct Contribution {
-    FoundBy found_by = FoundBy::Camera;
+    Technique found_by = Technique::Camera;
     std::uint32_t bounces = 0;  ///< scattering events between the light and the camera: 0 if it is seen directly
     bool is_distant = false;    ///< of the environment or a sun, not of a surface
     double light = 0.0;         ///< luminance brought to the pixel
@@ -58,14 +30,18 @@ std::vector<Contribution> contributions_of(const PathRecord& path);
 
 /// Bounces are told apart up to one less; the last class has all others.
 inline constexpr std::size_t kBounceClasses = 9;
+/// "3", "8 or more".
+std::string bounce_name(std::size_t bounces);
+/// The parts of NoiseShares::lights.
+inline constexpr std::array kNoiseLights = {"surfaces", "environment"};
 
 /// Shares of the variance of one path's luminance T. The share of a part C, the sum of the contributions of one kind,
 /// is Cov(C, T) / Var(T): its own variance, and half of its covariances with each of the other parts. The shares of
 /// each array sum to 1; one is negative if its part makes up for others.
 struct NoiseShares {
-    std::array<Interval, kFoundByCount> found_by{};
+    std::array<Interval, kTechniqueCount> found_by{};
     std::array<Interval, kBounceClasses> bounces{};
-    std::array<Interval, 2> lights{};  ///< of surfaces, of environment and sun
+    std::array<Interval, kNoiseLights.size()> lights{};  ///< of surfaces, of environment and sun
 };
 
 /// Of one method at one pixel. Luminances.
@@ -93,7 +69,7 @@ public:
     double seconds_per_path(GroupSet set) const;
 
 private:
-    static constexpr std::size_t kClasses = kFoundByCount + kBounceClasses + 2;
+    static constexpr std::size_t kClasses = kTechniqueCount + kBounceClasses + 2;
 
     struct Sums {
         double paths = 0.0;

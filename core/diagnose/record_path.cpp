@@ -8,26 +8,6 @@
 
 namespace pl::diagnose {
 
-std::string_view name_of(Technique technique) {
-    switch (technique) {
-    case Technique::Bsdf: return "bsdf";
-    case Technique::Field: return "field";
-    case Technique::Delta: return "delta";
-    }
-    return "bsdf";
-}
-
-std::string_view name_of(PathEnd end) {
-    switch (end) {
-    case PathEnd::Escaped: return "escaped";
-    case PathEnd::Absorbed: return "absorbed";
-    case PathEnd::Roulette: return "roulette";
-    case PathEnd::DepthLimit: return "depth-limit";
-    case PathEnd::ZeroDirection: return "zero-direction";
-    }
-    return "absorbed";
-}
-
 namespace {
 
 /// The kernel of all features traces the same bits as the one that rendered the pass.

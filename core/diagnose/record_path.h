@@ -1,11 +1,12 @@
 // A path with all its vertices.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
-#include <string_view>
 #include <vector>
 
+#include "core/base/choice.h"
 #include "core/kernel/base/math.h"
 #include "core/kernel/geometry/ray.h"
 #include "core/kernel/guiding/placement_view.h"
@@ -15,14 +16,15 @@ namespace pl::diagnose {
 
 // One path of a picture with all its vertices, as data: for text, files and drawings of paths.
 
-/// The technique that a scattered direction was sampled by.
+/// The technique by which a path finds light. Scattered directions have one of the last three.
 enum class Technique : std::uint32_t {
-    Bsdf,   ///< the BSDF without its delta lobes
-    Field,  ///< the guiding field
-    Delta,  ///< a delta lobe: mirror reflection or refraction
+    Camera,         ///< the camera ray meets it
+    LightSampling,  ///< a light sample
+    Bsdf,           ///< a direction sampled by the BSDF without its delta lobes
+    Field,          ///< a direction sampled by the guiding field
+    Delta,          ///< a direction of a delta lobe: mirror reflection or refraction
 };
-/// "bsdf", "field", "delta".
-std::string_view name_of(Technique technique);
+inline constexpr std::size_t kTechniqueCount = 5;
 
 /// The event that ended a path.
 enum class PathEnd : std::uint32_t {
@@ -32,8 +34,32 @@ enum class PathEnd : std::uint32_t {
     DepthLimit,     ///< PathSettings::max_depth
     ZeroDirection,  ///< the sampled direction has f cos = 0
 };
-/// "escaped", "absorbed", "roulette", "depth-limit", "zero-direction".
-std::string_view name_of(PathEnd end);
+
+}  // namespace pl::diagnose
+
+namespace pl {
+
+template <>
+inline constexpr auto kChoices<diagnose::Technique> = std::to_array<ChoiceInfo<diagnose::Technique>>({
+    {diagnose::Technique::Camera, "seen", "seen directly"},
+    {diagnose::Technique::LightSampling, "light", "light samples"},
+    {diagnose::Technique::Bsdf, "bsdf", "BSDF sampling"},
+    {diagnose::Technique::Field, "field", "guided sampling"},
+    {diagnose::Technique::Delta, "delta", "delta lobes"},
+});
+
+template <>
+inline constexpr auto kChoices<diagnose::PathEnd> = std::to_array<ChoiceInfo<diagnose::PathEnd>>({
+    {diagnose::PathEnd::Escaped, "escaped", "no surface is met"},
+    {diagnose::PathEnd::Absorbed, "absorbed", "the surface reflects nothing"},
+    {diagnose::PathEnd::Roulette, "roulette", "Russian roulette"},
+    {diagnose::PathEnd::DepthLimit, "depth-limit", "the most vertices are reached"},
+    {diagnose::PathEnd::ZeroDirection, "zero-direction", "the sampled direction reflects nothing"},
+});
+
+}  // namespace pl
+
+namespace pl::diagnose {
 
 /// Emission that a path reached: of a surface or, where the path escaped, of the environment.
 struct EmissionRecord {

@@ -66,15 +66,6 @@ TargetLight target_light(const RenderSettings& settings, MethodId method) {
     return settings.field.learning.light == LearnedLight::All ? TargetLight::All : TargetLight::LeftByPaths;
 }
 
-const char* name_of(TargetLight light) {
-    switch (light) {
-    case TargetLight::All: return "all";
-    case TargetLight::LeftByPaths: return "left to paths";
-    case TargetLight::LeftByProbes: return "left to probes";
-    }
-    return "";
-}
-
 std::vector<float> mixture_shares(const IncidentLight& light, const VolumeInspection& volume) {
     std::vector<float> shares = cell_shares(volume.side, volume.density);
     for (std::size_t cell = 0; cell < shares.size(); ++cell)

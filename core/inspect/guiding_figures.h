@@ -2,9 +2,11 @@
 // leaves. All of the probabilities of cells: the light within a cell counts as its mean.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <vector>
 
+#include "core/base/choice.h"
 #include "core/inspect/incident_light.h"
 #include "core/measure/statistics.h"
 #include "core/session/settings.h"
@@ -18,8 +20,13 @@ enum class TargetLight {
     LeftByProbes  ///< the same with cosine sampling in place of the mixture
 };
 TargetLight target_light(const RenderSettings& settings, MethodId method);
-/// "all", "left to paths", "left to probes".
-const char* name_of(TargetLight light);
+
+template <>
+inline constexpr auto kChoices<TargetLight> = std::to_array<ChoiceInfo<TargetLight>>({
+    {TargetLight::All, "all", "all incident light"},
+    {TargetLight::LeftByPaths, "left to paths", "left by light samples"},
+    {TargetLight::LeftByProbes, "left to probes", "left by light samples"},
+});
 
 /// Probabilities that guided paths sample each cell with, delta lobes left out: a p_bsdf + (1 - a) p_field.
 std::vector<float> mixture_shares(const IncidentLight& light, const VolumeInspection& volume);

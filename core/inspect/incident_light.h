@@ -9,6 +9,7 @@
 
 #include "core/fields/inspect_field.h"
 #include "core/kernel/shading/bsdf.h"
+#include "core/measure/statistics.h"
 #include "core/session/backend.h"
 
 namespace pl {
@@ -50,9 +51,8 @@ private:
     Bsdf<kEveryFeature> bsdf_;
 };
 
-/// Paths are dealt to this many groups in turn. Groups are independent of each other and alike, so their spread gives
-/// intervals, and the groups of even and of odd number are two independent halves.
-inline constexpr int kLightGroups = 32;
+/// Paths are dealt in turn to the groups of jackknife_interval().
+inline constexpr int kLightGroups = kJackknifeGroups;
 
 /// Light from a source that light sampling finds, too: its weight in a target depends on densities, so it is kept apart.
 struct SampledEmission {

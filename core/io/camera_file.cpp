@@ -15,10 +15,11 @@ namespace pl {
 
 namespace {
 
-/// Replaces the parts of a camera that the object at `pointer` has, which may have members of `others`, too. Throws Error(Input).
+/// As read_camera_parts(); the object may have members of `others`, too.
 void read_parts(const JsonDocument& file, const std::string& pointer, CameraChoice& camera,
                 const std::vector<std::string>& others = {}) {
-    std::vector<std::string> known(kCameraMembers.begin(), kCameraMembers.end());
+    std::vector<std::string> known{"eye",     "target",  "up",      "fov_deg", "aperture_radius", "focus_distance",
+                                   "shift_x", "shift_y", "mirrored"};
     known.insert(known.end(), others.begin(), others.end());
     if (file.object(pointer, known) == nullptr) file.fail(pointer, "expected a camera { ... }");
     const auto replace = [](auto& part, const auto& given) {
@@ -46,19 +47,13 @@ CameraDescription read_whole_camera(const JsonDocument& file, const std::string&
                                     const CameraDescription& standard, const std::vector<std::string>& others = {}) {
     CameraChoice given;
     read_parts(file, pointer, given, others);
-    const CameraDescription camera = replaced(standard, given);
-    if (camera.eye == camera.target)
-        file.fail(pointer + "/eye", "expected an eye away from the target, got the same point for both");
-    if (camera.up == glm::vec3(0.0f)) file.fail(pointer + "/up", "expected a direction, got [0, 0, 0]");
-    return camera;
+    return whole_camera(file, pointer, standard, given);
 }
 
 /// All cameras of a file; missing members come from `standard`. Throws Error(Input).
 std::vector<CameraDescription> read_cameras(const JsonDocument& file, const CameraDescription& standard) {
     file.object("", {"schema", "cameras"});
-    const std::string schema = file.text("/schema").value_or("none");
-    if (schema != kCamerasSchema)
-        file.fail("/schema", fmt::format("expected \"{}\", got \"{}\"", kCamerasSchema, schema));
+    file.require_schema(kCamerasSchema);
     std::vector<CameraDescription> cameras;
     for (std::size_t i = 0; i < file.array_size("/cameras"); ++i)
         cameras.push_back(read_whole_camera(file, fmt::format("/cameras/{}", i), standard));
@@ -66,6 +61,15 @@ std::vector<CameraDescription> read_cameras(const JsonDocument& file, const Came
 }
 
 }  // namespace
+
+CameraDescription whole_camera(const JsonDocument& file, const std::string& pointer,
+                               const CameraDescription& standard, const CameraChoice& given) {
+    const CameraDescription camera = replaced(standard, given);
+    if (camera.eye == camera.target)
+        file.fail(pointer + "/eye", "expected an eye away from the target, got the same point for both");
+    if (camera.up == glm::vec3(0.0f)) file.fail(pointer + "/up", "expected a direction, got [0, 0, 0]");
+    return camera;
+}
 
 CameraDescription replaced(CameraDescription camera, const CameraChoice& choice) {
     camera.eye = choice.eye.value_or(camera.eye);
@@ -91,7 +95,9 @@ Json camera_json(const CameraDescription& camera) {
     return json;
 }
 
-void read_camera_parts(const JsonDocument& file, CameraChoice& camera) { read_parts(file, "", camera); }
+void read_camera_parts(const JsonDocument& file, const std::string& pointer, CameraChoice& camera) {
+    read_parts(file, pointer, camera);
+}
 
 std::vector<CameraDescription> load_cameras(const std::filesystem::path& path, const CameraDescription& standard) {
     return read_cameras(JsonDocument(read_text_file(path), path), standard);

@@ -1,7 +1,6 @@
 // Cameras in JSON: parts of one camera for --camera, or the cameras of a path in their order.
 #pragma once
 
-#include <array>
 #include <filesystem>
 #include <optional>
 #include <span>
@@ -14,10 +13,6 @@
 #include "core/scene/description.h"
 
 namespace pl {
-
-/// Members of a camera in a JSON file.
-inline constexpr std::array kCameraMembers = {
-    "eye", "target", "up", "fov_deg", "aperture_radius", "focus_distance", "shift_x", "shift_y", "mirrored"};
 
 /// The given parts of a camera; the other parts come from elsewhere.
 struct CameraChoice {
@@ -39,8 +34,12 @@ CameraDescription replaced(CameraDescription camera, const CameraChoice& choice)
 /// "shift_x" and "shift_y" if the picture is shifted: in its heights, right and up, and "mirrored": true if right and left are swapped.
 Json camera_json(const CameraDescription& camera);
 
-/// Replaces the parts of a camera that a file of members of camera_json() has. Throws Error(Input) with file and line.
-void read_camera_parts(const JsonDocument& file, CameraChoice& camera);
+/// Replaces the parts of a camera that the object at `pointer` has, whose members are those of camera_json(). Throws Error(Input) with
+/// file and line.
+void read_camera_parts(const JsonDocument& file, const std::string& pointer, CameraChoice& camera);
+/// `standard` with these parts of the object at `pointer`. Throws Error(Input) with file and line for a camera that looks nowhere.
+CameraDescription whole_camera(const JsonDocument& file, const std::string& pointer,
+                               const CameraDescription& standard, const CameraChoice& given);
 
 inline constexpr const char* kCamerasSchema = "pathlight.cameras/1";
 

@@ -29,11 +29,6 @@ void write_file_atomic(const std::filesystem::path& path, std::string_view bytes
 /// Throws the Error(Runtime) of a file that cannot be written.
 [[noreturn]] void fail_write(const std::filesystem::path& path, const std::string& why);
 
-/// write_file_atomic() for text.
-inline void write_text_file_atomic(const std::filesystem::path& path, std::string_view text) {
-    write_file_atomic(path, text);
-}
-
 /// A temporary file beside its target, under a unique hidden name. The writer holds a lock on it, by which other
 /// processes distinguish it from the leftovers of killed ones.
 class TemporaryFile {

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "core/io/json_file.h"
 #include "core/io/line_reader.h"
@@ -201,67 +202,54 @@ const Json* JsonDocument::object(const std::string& pointer, const std::vector<s
     return value;
 }
 
-std::optional<std::string> JsonDocument::text(const std::string& pointer) const {
+/// What `read` makes of the value at `pointer`, nothing if there is no value. Fails with the expected kind of value where it makes nothing.
+template <class Value, class Read>
+std::optional<Value> JsonDocument::value_at(const std::string& pointer, std::string_view expected,
+                                            Read&& read) const {
     const Json* const value = find(pointer);
-    if (value != nullptr && !value->is_string()) {
-        fail(pointer, "expected a text in quotes, got " + in_quotes(value->dump()));
-    }
-    return value == nullptr ? std::nullopt : std::optional(value->get<std::string>());
+    if (value == nullptr) return std::nullopt;
+    std::optional<Value> result = read(*value);
+    if (!result) fail(pointer, fmt::format("expected {}, got {}", expected, in_quotes(value->dump())));
+    return result;
+}
+
+std::optional<std::string> JsonDocument::text(const std::string& pointer) const {
+    return value_at<std::string>(pointer, "a text in quotes", [](const Json& value) {
+        return value.is_string() ? std::optional(value.get<std::string>()) : std::nullopt;
+    });
 }
 
 std::optional<bool> JsonDocument::boolean(const std::string& pointer) const {
-    const Json* const value = find(pointer);
-    if (value != nullptr && !value->is_boolean()) {
-        fail(pointer, "expected true or false, got " + in_quotes(value->dump()));
-    }
-    return value == nullptr ? std::nullopt : std::optional(value->get<bool>());
+    return value_at<bool>(pointer, "true or false", [](const Json& value) {
+        return value.is_boolean() ? std::optional(value.get<bool>()) : std::nullopt;
+    });
 }
 
 std::optional<float> JsonDocument::number(const std::string& pointer) const {
-    const Json* const value = find(pointer);
-    if (value == nullptr) {
-        return std::nullopt;
-    }
-    if (!fits_float(*value)) {
-        fail(pointer, "expected a number that fits in a float, got " + in_quotes(value->dump()));
-    }
-    return value->get<float>();
+    return value_at<float>(pointer, "a number that fits in a float", [](const Json& value) {
+        return fits_float(value) ? std::optional(value.get<float>()) : std::nullopt;
+    });
 }
 
 std::optional<std::int64_t> JsonDocument::integer(const std::string& pointer) const {
-    const Json* const value = find(pointer);
-    if (value == nullptr) {
-        return std::nullopt;
-    }
     constexpr double kLargest = 9007199254740992.0;  // from here on doubles skip whole numbers
-    const double number = value->is_number() ? value->get<double>() : kLargest;
-    if (!(std::abs(number) < kLargest) || std::trunc(number) != number) {
-        fail(pointer, "expected a whole number, got " + in_quotes(value->dump()));
-    }
-    return static_cast<std::int64_t>(number);
+    return value_at<std::int64_t>(pointer, "a whole number", [](const Json& value) -> std::optional<std::int64_t> {
+        const double number = value.is_number() ? value.get<double>() : kLargest;
+        if (!(std::abs(number) < kLargest) || std::trunc(number) != number) return std::nullopt;
+        return static_cast<std::int64_t>(number);
+    });
 }
 
 std::optional<std::vector<double>> JsonDocument::numbers(const std::string& pointer, std::size_t length) const {
-    const Json* const value = find(pointer);
-    if (value == nullptr) {
-        return std::nullopt;
-    }
-    if (!value->is_array() || value->size() != length || !std::all_of(value->begin(), value->end(), fits_float)) {
-        fail(pointer, fmt::format("expected an array of {} numbers, got {}", length, in_quotes(value->dump())));
-    }
-    return value->get<std::vector<double>>();
+    using Numbers = std::vector<double>;
+    return value_at<Numbers>(pointer, fmt::format("an array of {} numbers", length), [&](const Json& value) {
+        const bool fits = value.is_array() && value.size() == length && std::ranges::all_of(value, fits_float);
+        return fits ? std::optional(value.get<Numbers>()) : std::nullopt;
+    });
 }
 
 std::optional<glm::vec3> JsonDocument::vector(const std::string& pointer) const {
-    const Json* const value = find(pointer);
-    if (value == nullptr) {
-        return std::nullopt;
-    }
-    const auto result = read_floats<glm::vec3>(*value);
-    if (!result) {
-        fail(pointer, "expected three numbers [x, y, z], got " + in_quotes(value->dump()));
-    }
-    return result;
+    return value_at<glm::vec3>(pointer, "three numbers [x, y, z]", read_floats<glm::vec3>);
 }
 
 std::optional<glm::vec3> JsonDocument::point(const std::string& pointer) const {
@@ -274,36 +262,37 @@ std::optional<glm::vec3> JsonDocument::point(const std::string& pointer) const {
 }
 
 std::optional<glm::vec2> JsonDocument::range(const std::string& pointer) const {
-    const Json* const value = find(pointer);
-    if (value == nullptr) {
-        return std::nullopt;
-    }
-    const auto result = read_floats<glm::vec2>(*value);
-    if (!result || !(result->x < result->y)) {
-        fail(pointer, "expected two numbers [low, high], low below high, got " + in_quotes(value->dump()));
-    }
-    return result;
+    return value_at<glm::vec2>(pointer, "two numbers [low, high], low below high", [](const Json& value) {
+        const auto range = read_floats<glm::vec2>(value);
+        return range && range->x < range->y ? range : std::nullopt;
+    });
 }
 
 std::optional<std::vector<std::string>> JsonDocument::texts(const std::string& pointer) const {
-    const Json* const value = find(pointer);
-    if (value == nullptr) {
-        return std::nullopt;
-    }
-    const bool fits = value->is_array() && !value->empty() &&
-                      std::all_of(value->begin(), value->end(), [](const Json& item) { return item.is_string(); });
-    if (!fits) {
-        fail(pointer, "expected texts in quotes [\"a\", ...], got " + in_quotes(value->dump()));
-    }
-    return value->get<std::vector<std::string>>();
+    using Texts = std::vector<std::string>;
+    return value_at<Texts>(pointer, "texts in quotes [\"a\", ...]", [](const Json& value) {
+        const bool fits = value.is_array() && !value.empty() &&
+                          std::ranges::all_of(value, [](const Json& item) { return item.is_string(); });
+        return fits ? std::optional(value.get<Texts>()) : std::nullopt;
+    });
 }
 
 std::size_t JsonDocument::array_size(const std::string& pointer) const {
-    const Json* const value = find(pointer);
-    if (value != nullptr && !value->is_array()) {
-        fail(pointer, "expected an array [ ... ], got " + in_quotes(value->dump()));
-    }
-    return value == nullptr ? 0 : value->size();
+    const auto size = value_at<std::size_t>(pointer, "an array [ ... ]", [](const Json& value) {
+        return value.is_array() ? std::optional(value.size()) : std::nullopt;
+    });
+    return size.value_or(0);
+}
+
+void JsonDocument::fail_choice(const std::string& pointer, const std::vector<std::string>& names,
+                               const std::string& got) const {
+    fail(pointer, fmt::format("expected one of {}, got '{}'", fmt::join(names, ", "), got));
+}
+
+void JsonDocument::require_schema(const char* schema) const {
+    const std::optional<std::string> found = text("/schema");
+    if (found != schema)
+        fail("/schema", fmt::format("expected \"{}\", got {}", schema, found ? "\"" + *found + "\"" : "none"));
 }
 
 }  // namespace pl

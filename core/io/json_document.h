@@ -12,6 +12,7 @@
 
 #include <glm/glm.hpp>
 
+#include "core/base/choice.h"
 #include "core/io/json_file.h"
 
 namespace pl {
@@ -47,14 +48,30 @@ public:
     /// [low, high] with low < high.
     std::optional<glm::vec2> range(const std::string& pointer) const;
     std::optional<std::vector<std::string>> texts(const std::string& pointer) const;
+    /// A value of an enumeration that describes itself, by its name.
+    template <Described Enum>
+    std::optional<Enum> choice(const std::string& pointer) const {
+        const std::optional<std::string> name = text(pointer);
+        if (!name) return std::nullopt;
+        const std::optional<Enum> value = choice_named<Enum>(*name);
+        if (!value) fail_choice(pointer, choice_names<Enum>(), *name);
+        return value;
+    }
     /// Number of elements of the array at `pointer`, 0 if there is none.
     std::size_t array_size(const std::string& pointer) const;
+
+    /// Throws Error(Input) unless the member "schema" is this one.
+    void require_schema(const char* schema) const;
 
     /// For point(): of a scene that was moved.
     void count_from(const glm::dvec3& origin) { origin_ = origin; }
 
 private:
     const Json* find(const std::string& pointer) const;
+    template <class Value, class Read>
+    std::optional<Value> value_at(const std::string& pointer, std::string_view expected, Read&& read) const;
+    [[noreturn]] void fail_choice(const std::string& pointer, const std::vector<std::string>& names,
+                                  const std::string& got) const;
 
     std::filesystem::path path_;
     std::map<std::string, int> lines_;

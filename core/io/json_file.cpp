@@ -31,7 +31,7 @@ Json read_json_file(const std::filesystem::path& path, std::string_view schema) 
 }
 
 void write_json_file(const std::filesystem::path& path, const Json& document) {
-    write_text_file_atomic(path, document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+    write_file_atomic(path, document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
 void make_folder(const std::filesystem::path& folder) {

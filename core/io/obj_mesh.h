@@ -1,6 +1,7 @@
 // The elements of an OBJ file with all indices resolved, and their reader.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -9,6 +10,8 @@
 #include <vector>
 
 #include <glm/glm.hpp>
+
+#include "core/base/choice.h"
 
 namespace pl {
 
@@ -62,6 +65,12 @@ enum class ObjNormals : std::uint8_t {
     Any,   ///< all are made unit
     Unit,  ///< those that are unit to within rounding keep their bits, which dividing by the length would change
 };
+
+template <>
+inline constexpr auto kChoices<ObjNormals> = std::to_array<ChoiceInfo<ObjNormals>>({
+    {ObjNormals::Any, "any", "Any"},
+    {ObjNormals::Unit, "unit", "Unit"},
+});
 
 struct ObjMesh {
     glm::dvec3 origin{0.0};            ///< of the positions, in coordinates of the file

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "core/io/camera_file.h"
 #include "core/io/files.h"
@@ -22,20 +21,6 @@
 
 namespace pl {
 namespace {
-
-PunctualKind read_kind(const JsonDocument& file, const std::string& at) {
-    const std::string name = file.text(at + "/type").value_or("");
-    for (const PunctualKind kind : {PunctualKind::Point, PunctualKind::Spot, PunctualKind::Directional})
-        if (name == name_of(kind)) return kind;
-    file.fail(at + "/type", fmt::format("expected point, spot or directional, got '{}'", name));
-}
-
-SpotFalloff read_falloff(const JsonDocument& file, const std::string& at) {
-    const std::string name = file.text(at + "/falloff").value_or("cosine");
-    for (const SpotFalloff falloff : {SpotFalloff::Cosine, SpotFalloff::Angle})
-        if (name == name_of(falloff)) return falloff;
-    file.fail(at + "/falloff", fmt::format("expected cosine or angle, got '{}'", name));
-}
 
 glm::vec3 required(const JsonDocument& file, const std::string& pointer, const std::optional<glm::vec3>& value) {
     if (!value) file.fail(pointer, "expected three numbers, got none");
@@ -54,14 +39,16 @@ void read_direction(const JsonDocument& file, const std::string& pointer, Punctu
 void read_cones(const JsonDocument& file, const std::string& at, PunctualLightDescription& light) {
     light.inner_deg = file.number(at + "/inner_deg").value_or(light.inner_deg);
     light.outer_deg = file.number(at + "/outer_deg").value_or(light.outer_deg);
-    light.falloff = read_falloff(file, at);
+    light.falloff = file.choice<SpotFalloff>(at + "/falloff").value_or(light.falloff);
     if (!are_cones(light.inner_deg, light.outer_deg))
         file.fail(at, fmt::format("expected 0 <= inner_deg <= outer_deg, and 0 < outer_deg <= {}, got {} and {}",
                                   kMostSpotAngle, light.inner_deg, light.outer_deg));
 }
 
 PunctualLightDescription read_punctual_light(const JsonDocument& file, const std::string& at) {
-    PunctualLightDescription light{.kind = read_kind(file, at)};
+    const auto kind = file.choice<PunctualKind>(at + "/type");
+    if (!kind) file.fail(at + "/type", "expected the kind of the light, got none");
+    PunctualLightDescription light{.kind = *kind};
     switch (light.kind) {
     case PunctualKind::Point: file.object(at, {"type", "position", "intensity"}); break;
     case PunctualKind::Spot:
@@ -128,56 +115,22 @@ void read_up(const JsonDocument& file, const LoadSettings& asked, SceneDescripti
 }
 
 void read_camera(const JsonDocument& file, const LoadSettings& asked, SceneDescription& scene) {
-    const bool given = file.object("/camera", std::vector<std::string>(kCameraMembers.begin(), kCameraMembers.end()));
     read_up(file, asked, scene);
+    constexpr CameraDescription kStandard;
     if (file.has("/cameras")) {
-        scene.cameras = read_named_cameras(file, frame_camera(scene, CameraDescription{}.fov_deg));
+        scene.cameras = read_named_cameras(file, frame_camera(scene, kStandard.fov_deg));
     }
-    if (!given) {
+    if (!file.has("/camera")) {
         set_default_camera(scene);
         return;
     }
-    const float fov_deg = file.number("/camera/fov_deg").value_or(CameraDescription{}.fov_deg);
-    if (!(fov_deg > 0.0f && fov_deg < 180.0f)) {
-        file.fail("/camera/fov_deg", fmt::format("expected an angle within (0, 180) degrees, got {}", fov_deg));
-    }
-    scene.camera = frame_camera(scene, fov_deg);
-    scene.camera.eye = file.point("/camera/eye").value_or(scene.camera.eye);
-    scene.camera.target = file.point("/camera/target").value_or(scene.camera.target);
-    scene.camera.up = file.vector("/camera/up").value_or(scene.camera.up);
-    if (scene.camera.eye == scene.camera.target) {
-        file.fail("/camera/eye", "eye and target are the same point");
-    }
-    scene.camera.shift = {file.number("/camera/shift_x").value_or(0.0f),
-                          file.number("/camera/shift_y").value_or(0.0f)};
-    scene.camera.is_mirrored = file.boolean("/camera/mirrored").value_or(false);
-    scene.camera.aperture_radius = file.number("/camera/aperture_radius").value_or(0.0f);
-    if (scene.camera.aperture_radius < 0.0f) {
-        file.fail("/camera/aperture_radius", "expected a number of at least 0");
-    }
+    CameraChoice given;
+    read_camera_parts(file, "/camera", given);
+    const CameraDescription framed = frame_camera(scene, given.fov_deg.value_or(kStandard.fov_deg));
+    scene.camera = whole_camera(file, "/camera", framed, given);
+    if (given.focus_distance) return;
     const double to_target = glm::length(glm::dvec3(scene.camera.target) - glm::dvec3(scene.camera.eye));
-    const auto sharp_there = static_cast<float>(std::min(to_target, double{std::numeric_limits<float>::max()}));
-    scene.camera.focus_distance = file.number("/camera/focus_distance").value_or(sharp_there);
-    if (!(scene.camera.focus_distance > 0.0f)) {
-        file.fail("/camera/focus_distance", "expected a number above 0");
-    }
-}
-
-ObjNormals read_normals(const JsonDocument& file) {
-    const std::string lengths = file.text("/normals").value_or("any");
-    if (lengths != "any" && lengths != "unit") {
-        file.fail("/normals", fmt::format("expected any or unit, got '{}'", lengths));
-    }
-    return lengths == "unit" ? ObjNormals::Unit : ObjNormals::Any;
-}
-
-MapKd read_map_kd(const JsonDocument& file) {
-    const std::string name = file.text("/map_kd").value_or(std::string(name_of(MapKd::Multiplies)));
-    const std::optional<MapKd> choice = choice_named<MapKd>(name);
-    if (!choice) {
-        file.fail("/map_kd", fmt::format("expected {}, got '{}'", fmt::join(choice_names<MapKd>(), " or "), name));
-    }
-    return *choice;
+    scene.camera.focus_distance = static_cast<float>(std::min(to_target, double{std::numeric_limits<float>::max()}));
 }
 
 /// The texels of an image, row by row from the top, are the colors of the vertices.
@@ -224,11 +177,7 @@ SceneDescription load_scene_json(const std::filesystem::path& path, const LoadSe
     JsonDocument file(read_text_file(path), path);
     file.object("", {"schema", "name", "summary", "obj", "normals", "map_kd", "vertex_colors", "camera", "cameras",
                      "environment", "lights", "materials", "knobs", "settings"});
-    const std::optional<std::string> schema = file.text("/schema");
-    if (schema != kSchema) {
-        file.fail("/schema",
-                  fmt::format("expected \"{}\", got {}", kSchema, schema ? "\"" + *schema + "\"" : "none"));
-    }
+    file.require_schema(kSchema);
     const std::optional<std::string> obj = file.text("/obj");
     if (!obj || obj->empty()) {
         file.fail("/obj", "expected the name of an OBJ or glTF file");
@@ -237,7 +186,8 @@ SceneDescription load_scene_json(const std::filesystem::path& path, const LoadSe
     const bool needs_groups = file.has("/knobs") || file.has("/vertex_colors");
     MeshGroups groups;
     SceneDescription scene = load_mesh(path.parent_path() / *obj, needs_groups ? &groups : nullptr, asked,
-                                       read_map_kd(file), read_normals(file));
+                                       file.choice<MapKd>("/map_kd").value_or(MapKd::Multiplies),
+                                       file.choice<ObjNormals>("/normals").value_or(ObjNormals::Any));
     file.count_from(scene.origin);
     scene.source = path;
     scene.files.push_back(path);

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "core/io/files.h"
 #include "core/io/json_file.h"
@@ -22,7 +21,7 @@ namespace pl {
 
 namespace {
 
-constexpr std::string_view kMaterialsSchema = "pathlight.materials/1";
+constexpr const char* kMaterialsSchema = "pathlight.materials/1";
 
 /// Radiance, emission or absorption: three finite numbers of at least 0.
 std::optional<glm::vec3> read_light(const JsonDocument& file, const std::string& pointer) {
@@ -71,18 +70,6 @@ std::uint32_t find_material(const JsonDocument& file, const SceneDescription& sc
     file.fail(pointer, "the scene has no such material" + did_you_mean(name, names));
 }
 
-/// A value of an enumeration that describes itself.
-template <Described Choice>
-std::optional<Choice> read_choice(const JsonDocument& file, const std::string& pointer) {
-    const std::optional<std::string> name = file.text(pointer);
-    if (!name) return std::nullopt;
-    const std::optional<Choice> value = choice_named<Choice>(*name);
-    if (!value)
-        file.fail(pointer,
-                  fmt::format("expected one of {}, got '{}'", fmt::join(choice_names<Choice>(), ", "), *name));
-    return value;
-}
-
 void read_parameter(const JsonDocument& file, const std::string& at, const MaterialParameter& parameter,
                     MaterialDescription& material) {
     const std::string pointer = at + "/" + parameter.name;
@@ -96,7 +83,7 @@ void read_parameter(const JsonDocument& file, const std::string& at, const Mater
 }
 
 void read_surface(const JsonDocument& file, const std::string& at, MaterialDescription& material) {
-    material.kind = read_choice<SurfaceKind>(file, at + "/surface").value_or(material.kind);
+    material.kind = file.choice<SurfaceKind>(at + "/surface").value_or(material.kind);
     for (const MaterialParameter* parameter : kMaterialParameters) read_parameter(file, at, *parameter, material);
     if (material.roughness < kLeastRoughness || material.kind == SurfaceKind::Pane) material.roughness = 0.0f;
 }
@@ -112,25 +99,16 @@ bool read_wrap(const JsonDocument& file, const std::string& pointer, bool standa
 
 void read_images(const JsonDocument& file, const std::string& at, SceneDescription& scene, TextureUse& use) {
     const bool repeats = read_wrap(file, at + "/wrap", true);
-    struct Slot {
-        const char* key;
-        std::uint32_t TextureUse::*index;
-        TextureContent content;
-    };
-    for (const Slot& slot : {Slot{"/albedo_map", &TextureUse::albedo, TextureContent::Color},
-                             Slot{"/roughness_map", &TextureUse::roughness, TextureContent::Number},
-                             Slot{"/emission_map", &TextureUse::emission, TextureContent::Color},
-                             Slot{"/opacity_map", &TextureUse::opacity, TextureContent::Opacity},
-                             Slot{"/normal_map", &TextureUse::normal, TextureContent::Normal},
-                             Slot{"/blend/image", &TextureUse::blend, TextureContent::Number}}) {
-        const std::optional<std::string> name = file.text(at + slot.key);
-        const bool own_repeats = read_wrap(file, at + slot.key + "_wrap", repeats);
+    for (const MaterialImage& image : kMaterialImages) {
+        const std::string pointer = at + "/" + image.name;
+        const std::optional<std::string> name = file.text(pointer);
+        const bool own_repeats = read_wrap(file, pointer + "_wrap", repeats);
         if (!name) {
             continue;
         }
-        use.*slot.index = name->empty() ? kNoTexture
-                                        : add_texture(scene, image_path(file, scene, at + slot.key, *name),
-                                                      slot.content, own_repeats);
+        use.*image.texture =
+            name->empty() ? kNoTexture
+                          : add_texture(scene, image_path(file, scene, pointer, *name), image.content, own_repeats);
     }
 }
 
@@ -139,7 +117,7 @@ void read_opacity(const JsonDocument& file, const std::string& at, MaterialDescr
     const std::optional<float> opacity = read_within(file, at + "/opacity", 0.0f, 1.0f);
     const OpacityRule standard = opacity.value_or(1.0f) < 1.0f ? OpacityRule::Blend : material.opacity_rule;
     material.opacity = opacity.value_or(material.opacity);
-    material.opacity_rule = read_choice<OpacityRule>(file, at + "/opacity_rule").value_or(standard);
+    material.opacity_rule = file.choice<OpacityRule>(at + "/opacity_rule").value_or(standard);
 }
 
 void read_blend(const JsonDocument& file, const std::string& at, const SceneDescription& scene,
@@ -228,25 +206,14 @@ void read_materials(const JsonDocument& file, SceneDescription& scene) {
     if (!all->is_object()) {
         file.fail("/materials", "expected an object { ... }");
     }
-    std::vector<std::string> keys{"emission",
-                                  "two_sided_emission",
-                                  "surface",
-                                  "albedo_map",
-                                  "roughness_map",
-                                  "emission_map",
-                                  "opacity_map",
-                                  "normal_map",
-                                  "wrap",
-                                  "albedo_map_wrap",
-                                  "roughness_map_wrap",
-                                  "emission_map_wrap",
-                                  "opacity_map_wrap",
-                                  "normal_map_wrap",
-                                  "normal_strength",
-                                  "normal_green",
-                                  "opacity",
-                                  "opacity_rule",
-                                  "blend"};
+    std::vector<std::string> keys{"emission", "two_sided_emission", "surface",
+                                  "wrap",     "normal_strength",    "normal_green",
+                                  "opacity",  "opacity_rule",       "blend"};
+    for (const MaterialImage& image : kMaterialImages) {
+        if (std::string_view(image.name).find('/') != std::string_view::npos) continue;  // of a member's member
+        keys.emplace_back(image.name);
+        keys.push_back(keys.back() + "_wrap");
+    }
     for (const MaterialParameter* parameter : kMaterialParameters) keys.emplace_back(parameter->name);
     for (const auto& [name, overrides] : all->items()) {
         const std::string at = "/materials" + pointer_step(name);
@@ -259,7 +226,7 @@ void read_materials(const JsonDocument& file, SceneDescription& scene) {
         read_images(file, at, scene, material.textures);
         material.normal_strength =
             read_within(file, at + "/normal_strength", 0.0f, kMostNormalStrength).value_or(material.normal_strength);
-        material.normal_green = read_choice<NormalGreen>(file, at + "/normal_green").value_or(material.normal_green);
+        material.normal_green = file.choice<NormalGreen>(at + "/normal_green").value_or(material.normal_green);
         read_opacity(file, at, material);
     }
     check_blends(file, scene);
@@ -268,11 +235,7 @@ void read_materials(const JsonDocument& file, SceneDescription& scene) {
 void read_material_file(const std::filesystem::path& path, SceneDescription& scene) {
     const JsonDocument file(read_text_file(path), path);
     file.object("", {"schema", "materials"});
-    const std::optional<std::string> schema = file.text("/schema");
-    if (schema != kMaterialsSchema) {
-        file.fail("/schema",
-                  fmt::format("expected \"{}\", got {}", kMaterialsSchema, schema ? "\"" + *schema + "\"" : "none"));
-    }
+    file.require_schema(kMaterialsSchema);
     read_materials(file, scene);
     scene.files.push_back(path);
 }

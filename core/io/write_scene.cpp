@@ -110,8 +110,8 @@ std::vector<std::string> material_names(const SceneDescription& scene) {
 
 void write_mesh(const SceneDescription& scene, const std::vector<std::string>& names,
                 const std::filesystem::path& folder, const std::string& stem) {
-    write_text_file_atomic(folder / (stem + ".obj"), obj_text(scene, names, stem));
-    write_text_file_atomic(folder / (stem + ".mtl"), mtl_text(scene, names));
+    write_file_atomic(folder / (stem + ".obj"), obj_text(scene, names, stem));
+    write_file_atomic(folder / (stem + ".mtl"), mtl_text(scene, names));
 }
 
 namespace fs = std::filesystem;
@@ -231,31 +231,26 @@ private:
     /// `names`: of all materials.
     Json material(const MaterialDescription& from, const std::vector<std::string>& names) {
         Json json = material_json(from);
-        add_image(json, "albedo_map", from.textures.albedo, TextureContent::Color);
-        add_image(json, "roughness_map", from.textures.roughness, TextureContent::Number);
-        add_image(json, "emission_map", from.textures.emission, TextureContent::Color);
-        add_image(json, "opacity_map", from.textures.opacity, TextureContent::Opacity);
-        add_image(json, "normal_map", from.textures.normal, TextureContent::Normal);
+        if (from.blend.is_any()) json["blend"]["with"] = names[from.blend.other];
+        for (const MaterialImage& image : kMaterialImages) add_image(json, image, from.textures.*image.texture);
         if (from.textures.normal != kNoTexture) {
             json["normal_strength"] = from.normal_strength;
             json["normal_green"] = name_of(from.normal_green);
         }
-        if (from.blend.is_any()) {
-            json["blend"]["with"] = names[from.blend.other];
-            add_image(json["blend"], "image", from.textures.blend, TextureContent::Number);
-        }
         return json;
     }
 
-    void add_image(Json& json, const std::string& key, std::uint32_t texture, TextureContent use) {
+    void add_image(Json& json, const MaterialImage& image, std::uint32_t texture) {
         if (texture == kNoTexture) return;
-        std::string& file = files_[{texture, use}];
+        std::string& file = files_[{texture, image.content}];
         if (file.empty()) {
-            file = write_texture(folder_, fmt::format("image-{}", files_.size()), scene_.textures[texture], use);
+            file = write_texture(folder_, fmt::format("image-{}", files_.size()), scene_.textures[texture],
+                                 image.content);
             ++images_;
         }
-        json[key] = shown(file);
-        if (!scene_.textures[texture].repeats) json[key + "_wrap"] = "clamp";
+        const std::string pointer = fmt::format("/{}", image.name);
+        json[Json::json_pointer(pointer)] = shown(file);
+        if (!scene_.textures[texture].repeats) json[Json::json_pointer(pointer + "_wrap")] = "clamp";
     }
 
     /// Values that follow from the chosen camera are left out: they are set again when the scene is opened.

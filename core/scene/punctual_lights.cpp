@@ -34,23 +34,11 @@ bool are_cones(float inner_deg, float outer_deg) {
     return inner_deg >= 0.0f && inner_deg <= outer_deg && outer_deg > 0.0f && outer_deg <= kMostSpotAngle;
 }
 
-std::string_view name_of(PunctualKind kind) {
-    switch (kind) {
-    case PunctualKind::Point: return "point";
-    case PunctualKind::Spot: return "spot";
-    case PunctualKind::Directional: return "directional";
-    }
-    return "";
-}
-
-std::string_view name_of(SpotFalloff falloff) { return falloff == SpotFalloff::Cosine ? "cosine" : "angle"; }
-
 std::string count_text(const std::vector<PunctualLightDescription>& lights) {
     std::vector<std::string> parts;
-    for (const PunctualKind kind : {PunctualKind::Point, PunctualKind::Spot, PunctualKind::Directional}) {
-        const auto count = std::count_if(lights.begin(), lights.end(),
-                                         [&](const PunctualLightDescription& light) { return light.kind == kind; });
-        if (count > 0) parts.push_back(fmt::format("{} {} light{}", count, name_of(kind), count == 1 ? "" : "s"));
+    for (const ChoiceInfo<PunctualKind>& info : kChoices<PunctualKind>) {
+        const auto count = std::ranges::count(lights, info.value, &PunctualLightDescription::kind);
+        if (count > 0) parts.push_back(fmt::format("{} {} light{}", count, info.name, count == 1 ? "" : "s"));
     }
     return fmt::format("{}", fmt::join(parts, ", "));
 }

@@ -1,18 +1,27 @@
 // Lights without extent in words.
 #pragma once
 
+#include <array>
 #include <string>
-#include <string_view>
 #include <vector>
 
+#include "core/base/choice.h"
 #include "core/scene/description.h"
 
 namespace pl {
 
-/// "point", "spot" or "directional": in files and for people.
-std::string_view name_of(PunctualKind kind);
-/// "cosine" or "angle".
-std::string_view name_of(SpotFalloff falloff);
+template <>
+inline constexpr auto kChoices<PunctualKind> = std::to_array<ChoiceInfo<PunctualKind>>({
+    {PunctualKind::Point, "point", "Point"},
+    {PunctualKind::Spot, "spot", "Spot"},
+    {PunctualKind::Directional, "directional", "Directional"},
+});
+
+template <>
+inline constexpr auto kChoices<SpotFalloff> = std::to_array<ChoiceInfo<SpotFalloff>>({
+    {SpotFalloff::Cosine, "cosine", "Cosine"},
+    {SpotFalloff::Angle, "angle", "Angle"},
+});
 
 /// "2 point lights, 1 directional light"; empty without lights.
 std::string count_text(const std::vector<PunctualLightDescription>& lights);

@@ -6,8 +6,17 @@
 
 namespace pl {
 
+struct SceneScalars {
+    double longest_edge = 0.0;  ///< of all triangles, if there are instances
+    float light_power = 0.0f;
+    Vec3f environment{0.0f};
+    FarLights far_lights;  ///< without its arrays
+    float far_probability = 0.0f;
+    float delta_probability = 0.0f;
+};
+
 template <template <class> class Array>
-struct SceneStorage {
+struct SceneStorage : SceneScalars {
     Array<Vec3f> positions;
     Array<Triangle> triangles;
     Array<TrianglePlane> planes;
@@ -46,12 +55,6 @@ struct SceneStorage {
     Array<std::uint32_t> instance_order;
     Array<BvhNode> mesh_nodes;
     Array<BvhTriangle> mesh_triangles;
-    double longest_edge = 0.0;  ///< of all triangles, if there are instances
-    float light_power = 0.0f;
-    Vec3f environment{0.0f};
-    FarLights far_lights;  ///< without its arrays
-    float far_probability = 0.0f;
-    float delta_probability = 0.0f;
 
     SceneView view() const {
         FarLights far = far_lights;
@@ -144,12 +147,7 @@ void zip(const SceneStorage<From>& from, SceneStorage<To>& to, Fn&& fn) {
     fn(from.instance_order, to.instance_order);
     fn(from.mesh_nodes, to.mesh_nodes);
     fn(from.mesh_triangles, to.mesh_triangles);
-    to.longest_edge = from.longest_edge;
-    to.light_power = from.light_power;
-    to.environment = from.environment;
-    to.far_lights = from.far_lights;
-    to.far_probability = from.far_probability;
-    to.delta_probability = from.delta_probability;
+    static_cast<SceneScalars&>(to) = from;
 }
 
 /// Total size of all arrays.

@@ -76,6 +76,19 @@ inline constexpr const MaterialParameter* kMaterialParameters[] = {
     &material_parameter::kRotation, &material_parameter::kIor,          &material_parameter::kSpecular,
     &material_parameter::kEdgeTint, &material_parameter::kTransmission, &material_parameter::kAbsorption};
 
+/// An image of a material.
+struct MaterialImage {
+    const char* name;  ///< in files: of the member, or of a member's member
+    std::uint32_t TextureUse::*texture;
+    TextureContent content;
+};
+inline constexpr MaterialImage kMaterialImages[] = {{"albedo_map", &TextureUse::albedo, TextureContent::Color},
+                                                    {"roughness_map", &TextureUse::roughness, TextureContent::Number},
+                                                    {"emission_map", &TextureUse::emission, TextureContent::Color},
+                                                    {"opacity_map", &TextureUse::opacity, TextureContent::Opacity},
+                                                    {"normal_map", &TextureUse::normal, TextureContent::Normal},
+                                                    {"blend/image", &TextureUse::blend, TextureContent::Number}};
+
 /// A parameter of a kind of surface, as the window shows it.
 struct SurfaceParameter {
     const MaterialParameter* parameter;

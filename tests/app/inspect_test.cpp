@@ -6,7 +6,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "core/io/image.h"
 #include "tests/support/catch.hpp"
 #include "tests/support/program/run_program.h"
 
@@ -102,17 +101,6 @@ TEST_CASE("the table has a row per cell with the numbers of the JSON file") {
     }
 }
 
-TEST_CASE("the picture of a hemisphere has a legend with its place") {
-    const TempDir folder;
-    REQUIRE(run_program(inspect(folder / "x.png", {"--pixel", "16,28"})).code == 0);
-    ImageMetadata metadata;
-    const ByteImage image = read_png8(folder / "x.png", &metadata);
-    CHECK(image.width >= 512);
-    CHECK(image.height >= 512);
-    CHECK(std::find(metadata.begin(), metadata.end(),
-                    std::pair<std::string, std::string>("method", "reinforcement")) != metadata.end());
-}
-
 TEST_CASE("the light that reaches the volume comes with it on request") {
     const Arguments place{"--pixel", "16,28", "--truth", "--truth-samples", "64"};
     const json volume = inspected(place);
@@ -134,8 +122,6 @@ TEST_CASE("the light that reaches the volume comes with it on request") {
     REQUIRE(lines.size() == 65);
     CHECK(std::count(lines[0].begin(), lines[0].end(), ',') == 13);
     CHECK(std::count(lines[1].begin(), lines[1].end(), ',') == 13);
-    REQUIRE(run_program(inspect(folder / "x.png", more)).code == 0);
-    CHECK(read_png8(folder / "x.png").height >= 800);
 }
 
 TEST_CASE("a place without a volume is told before any training") {

@@ -115,12 +115,6 @@ TEST_CASE("the gain of a picture comes by tiles") {
     CHECK(gain["picture"]["gain"].get<double>() > 0.0);
 }
 
-TEST_CASE("as a PNG the gain is the picture with marks") {
-    const TempDir folder;
-    REQUIRE(traced_gain(folder, "gain.png", {"--method", "reinforcement"}).code == 0);
-    CHECK(read_all(folder / "gain.png").substr(1, 3) == "PNG");
-}
-
 TEST_CASE("a gain needs a guided method, the whole picture, and a known kind of file") {
     const TempDir folder;
     const auto refusal = [&](const std::string& file, const Arguments& more) {

@@ -190,9 +190,8 @@ TEST_CASE("a target error in a scene is for rendered pictures of light only") {
 }
 
 TEST_CASE("spellings: aliases, equals signs, negative numbers, the last of two") {
-    const Options options =
-        parse({"render", "--scene=s", "--outfile", "x.pfm", "--samples=5", "-t3", "--eye", "-1,-2,-3.5", "--exposure",
-               "-2", "--seed", "1", "--seed", "2", "--headless", "--fov=+30"});
+    const Options options = parse({"render", "--scene=s", "--outfile", "x.pfm", "--samples=5", "-t3", "--eye",
+                                   "-1,-2,-3.5", "--exposure", "-2", "--seed", "1", "--seed", "2", "--fov=+30"});
     CHECK(options.scene == "s");
     CHECK(options.output == "x.pfm");
     CHECK(options.spp == 5u);
@@ -282,7 +281,7 @@ TEST_CASE("every option is in the manual, or in the page on measuring") {
         const std::string flags(spec.flags);
         CAPTURE(flags);
         CHECK(pages.find("--" + std::string(spec.name)) != std::string::npos);
-        for (const std::string& flag : split_at_commas(flags)) CHECK(pages.find("`" + flag) != std::string::npos);
+        for (const std::string& flag : split(flags, ',')) CHECK(pages.find("`" + flag) != std::string::npos);
     }
     for (const CommandInfo& info : all_commands())
         CHECK_THAT(pages, contains(fmt::format("pathlight {}", info.id == Command::View ? "[view]" : info.name)));

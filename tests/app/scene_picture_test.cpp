@@ -1,5 +1,7 @@
 // Pictures of `inspect` and `trace` by the drawing code of the viewer, from a shell.
 #include <algorithm>
+#include <array>
+#include <set>
 #include <sstream>
 
 #include <nlohmann/json.hpp>
@@ -28,6 +30,16 @@ std::size_t pixels_that_differ(const ByteImage& a, const ByteImage& b) {
                      ? 0
                      : 1;
     return count;
+}
+
+std::set<std::array<std::uint8_t, 3>> colors_in(const ByteImage& image, glm::ivec2 low, glm::ivec2 high) {
+    std::set<std::array<std::uint8_t, 3>> colors;
+    for (int y = low.y; y < std::min(high.y, image.height); ++y)
+        for (int x = low.x; x < std::min(high.x, image.width); ++x) {
+            const auto i = 3 * static_cast<std::size_t>(y * image.width + x);
+            colors.insert({image.rgb[i], image.rgb[i + 1], image.rgb[i + 2]});
+        }
+    return colors;
 }
 
 }  // namespace
@@ -71,6 +83,48 @@ TEST_CASE("keeping the history changes nothing that is learned") {
     REQUIRE(inspect_pixel(folder / "h.json", {"--history", "--save-field", folder / "h.field"}).code == 0);
     REQUIRE(inspect_pixel(folder / "x.json", {"--save-field", folder / "x.field"}).code == 0);
     CHECK(read_all(folder / "h.field") == read_all(folder / "x.field"));
+}
+
+TEST_CASE(
+    "the discs of a hemisphere have the colors of its cells below the lines about it, and the same at every run") {
+    const TempDir folder;
+    REQUIRE(inspect_pixel(folder / "x.png", {}).code == 0);
+    ImageMetadata metadata;
+    const ByteImage image = read_png8(folder / "x.png", &metadata);
+    CHECK(image.width >= 2 * 520);
+    CHECK(image.height >= 2 * 520);
+    CHECK(text_of(metadata, "method") == "reinforcement");
+    REQUIRE(inspect_pixel(folder / "again.png", {}).code == 0);
+    CHECK(read_png8(folder / "again.png").rgb == image.rgb);
+    const std::set<std::array<std::uint8_t, 3>> colors = colors_in(image, {24, 210}, {24 + 520, 210 + 520});
+    CHECK(colors.size() > 20);  // a fourth of the cells at least differ
+    // In the place of the lines there are letters, in shades of one color.
+    CHECK(colors_in(image, {24, 24}, {300, 42}).size() > 5);
+}
+
+TEST_CASE("with the truth there are four discs") {
+    const TempDir folder;
+    REQUIRE(inspect_pixel(folder / "x.png", {"--truth", "--truth-samples", "64"}).code == 0);
+    const ByteImage image = read_png8(folder / "x.png");
+    CHECK(image.height >= 2 * 380);
+    for (const glm::ivec2 disc :
+         {glm::ivec2(24, 282), glm::ivec2(527, 282), glm::ivec2(24, 734), glm::ivec2(527, 734)})
+        CHECK(colors_in(image, disc + 100, disc + 280).size() > 5);
+}
+
+TEST_CASE("as a PNG the gain is the picture with marks") {
+    const TempDir folder;
+    REQUIRE(run_program({"trace", "door", "--size", "64x48", "--spp", "4", "--method", "reinforcement", "--gain",
+                         folder / "gain.png"})
+                .code == 0);
+    REQUIRE(run_program({"render", "door", "--size", "64x48", "--spp", "4", "--method", "reinforcement", "-o",
+                         folder / "x.png"})
+                .code == 0);
+    const ByteImage image = read_png8(folder / "gain.png");
+    REQUIRE(image.width == 64);
+    const std::size_t marked = pixels_that_differ(image, read_png8(folder / "x.png"));
+    CHECK(marked > 12 * 3);        // of twelve tiles, of 16 x 16 pixels
+    CHECK(marked < 12 * 10 * 10);  // of a tile, with its shadow
 }
 
 TEST_CASE("shapes are drawn over the scene, the same at every run") {

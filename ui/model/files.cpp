@@ -159,8 +159,8 @@ void PictureFiles::write_unsaved() {
 void PictureFiles::save_plot(const std::string& svg, const std::string& csv) {
     const std::filesystem::path name = names_.next(scene_, "plot", {".svg", ".csv"});
     jobs_.push([this, name, svg, csv]() -> Jobs::Report {
-        write_text_file_atomic(name.string() + ".svg", svg);
-        write_text_file_atomic(name.string() + ".csv", csv);
+        write_file_atomic(name.string() + ".svg", svg);
+        write_file_atomic(name.string() + ".csv", csv);
         return [this, name] {
             messages_.say(MessageLevel::Info, fmt::format("saved {0}.svg and {0}.csv", name.string()));
         };

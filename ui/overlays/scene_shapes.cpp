@@ -248,20 +248,22 @@ void draw_mark(ImDrawList& out, ImVec2 center, float radius, Verdict verdict, bo
 
 }  // namespace
 
-void draw_gain_marks(const ViewerModel& model, const Rect& image) {
-    const TileGains* gains = model.gain_marks().gains();
-    if (gains == nullptr) return;
-    ImDrawList& out = *ImGui::GetBackgroundDrawList();
-    const float width = image.width / static_cast<float>(gains->columns);
-    const float height = image.height / static_cast<float>(gains->rows);
+void draw_gain_marks(ImDrawList& out, const TileGains& gains, const Rect& image, bool is_old) {
+    const float width = image.width / static_cast<float>(gains.columns);
+    const float height = image.height / static_cast<float>(gains.rows);
     const float radius = std::min(em(0.6f), 0.2f * std::min(width, height));
-    for (std::size_t i = 0; i < gains->tiles.size(); ++i) {
-        const auto columns = static_cast<std::size_t>(gains->columns);
+    for (std::size_t i = 0; i < gains.tiles.size(); ++i) {
+        const auto columns = static_cast<std::size_t>(gains.columns);
         draw_mark(out,
                   {image.x + (static_cast<float>(i % columns) + 0.5f) * width,
                    image.y + (static_cast<float>(i / columns) + 0.5f) * height},
-                  radius, verdict_of(gains->tiles[i]), model.gain_marks().is_old());
+                  radius, verdict_of(gains.tiles[i]), is_old);
     }
+}
+
+void draw_gain_marks(const ViewerModel& model, const Rect& image) {
+    if (const TileGains* gains = model.gain_marks().gains())
+        draw_gain_marks(*ImGui::GetBackgroundDrawList(), *gains, image, model.gain_marks().is_old());
 }
 
 }  // namespace pl::ui

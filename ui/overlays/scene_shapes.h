@@ -33,4 +33,7 @@ void draw_strokes(ImDrawList& out, std::span<const PathPiece> pieces, const Proj
 
 void draw_mesh(ImDrawList& out, const ScreenMesh& mesh);
 
+/// A mark for each tile of a picture in `image`, faint where the gains are of an earlier one.
+void draw_gain_marks(ImDrawList& out, const TileGains& gains, const Rect& image, bool is_old);
+
 }  // namespace pl::ui

@@ -98,8 +98,7 @@ void draw_light(const diagnose::VertexRecord& vertex) {
 }
 
 void draw_direction(const diagnose::ScatterRecord& direction) {
-    text_row("direction", fmt::format("by {}", name_of(direction.technique)),
-             "The technique that sampled it: BSDF, field, or a delta lobe.");
+    text_row("direction", fmt::format("by {}", label_of(direction.technique)), "The technique that sampled it.");
     if (direction.technique != diagnose::Technique::Delta)
         text_row("  densities",
                  fmt::format("{:.3g}: bsdf {:.3g}, field {:.3g}", direction.pdf_sa, direction.bsdf_pdf_sa,
@@ -133,17 +132,6 @@ void draw_vertex(const diagnose::VertexRecord& vertex, std::size_t index, const 
     if (vertex.scattered) draw_direction(*vertex.scattered);
 }
 
-const char* meaning_of(diagnose::PathEnd end) {
-    switch (end) {
-    case diagnose::PathEnd::Escaped: return "no surface is met";
-    case diagnose::PathEnd::Absorbed: return "the surface reflects nothing";
-    case diagnose::PathEnd::Roulette: return "Russian roulette";
-    case diagnose::PathEnd::DepthLimit: return "the most vertices are reached";
-    case diagnose::PathEnd::ZeroDirection: return "the sampled direction reflects nothing";
-    }
-    return "";
-}
-
 void draw_path(const PathExplorer& explorer, const SceneDescription& scene) {
     const std::optional<std::size_t> selected = explorer.selected();
     if (!selected) return;
@@ -155,7 +143,7 @@ void draw_path(const PathExplorer& explorer, const SceneDescription& scene) {
     ImGui::Separator();
     for (std::size_t i = 0; i < path.vertices.size(); ++i) {
         draw_vertex(path.vertices[i], i, scene);
-        if (i + 1 == path.vertices.size()) text_row("end", meaning_of(path.end));
+        if (i + 1 == path.vertices.size()) text_row("end", std::string(label_of(path.end)));
         ImGui::Separator();
     }
 }
@@ -234,17 +222,17 @@ void draw_shares(const diagnose::PixelNoise& noise) {
     ImGui::TableSetupColumn("default");
     if (noise.guided) ImGui::TableSetupColumn(std::string(info_of(noise.guided_method).name).c_str());
     ImGui::TableHeadersRow();
-    for (const ChoiceInfo<diagnose::FoundBy>& info : kChoices<diagnose::FoundBy>)
+    for (const ChoiceInfo<diagnose::Technique>& info : kChoices<diagnose::Technique>)
         draw_part(noise, std::string(info.label), [&](const diagnose::NoiseShares& shares) {
             return shares.found_by[static_cast<std::size_t>(info.value)];
         });
     draw_noise_heading("by bounces");
     for (std::size_t i = 0; i < diagnose::kBounceClasses; ++i)
-        draw_part(noise, i + 1 < diagnose::kBounceClasses ? fmt::format("{}", i) : fmt::format("{} or more", i),
+        draw_part(noise, diagnose::bounce_name(i),
                   [&](const diagnose::NoiseShares& shares) { return shares.bounces[i]; });
     draw_noise_heading("by light");
-    for (std::size_t i = 0; i < 2; ++i)
-        draw_part(noise, i == 0 ? "surfaces" : "environment",
+    for (std::size_t i = 0; i < diagnose::kNoiseLights.size(); ++i)
+        draw_part(noise, diagnose::kNoiseLights[i],
                   [&](const diagnose::NoiseShares& shares) { return shares.lights[i]; });
     draw_noise_heading("of one path");
     draw_figure(noise, "luminance",

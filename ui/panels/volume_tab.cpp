@@ -52,7 +52,7 @@ void draw_truth(const Selection& selection, const GuidingStatus* guiding) {
     text_row("True light",
              fmt::format("{} paths per cell, {}", report.paths_per_cell, short_seconds(light.seconds())),
              "By paths of default from the volume, on a thread of low priority. Its time is on no other clock.");
-    text_row("Part", report.target == TargetLight::All ? "all incident light" : "left by light samples",
+    text_row("Part", std::string(label_of(report.target)),
              "The light that the method learns. With light samples and learn-from indirect, light that light "
              "samples find is left to them by multiple importance sampling, as the densities now are.");
     draw_figures(report);

@@ -243,16 +243,10 @@ bool read_cones(GltfFile& file, const std::string& at, PunctualLightDescription&
     return light.outer_deg > 0.0f;
 }
 
-std::optional<PunctualKind> kind_of(const std::string& type) {
-    for (const PunctualKind kind : {PunctualKind::Point, PunctualKind::Spot, PunctualKind::Directional})
-        if (type == name_of(kind)) return kind;
-    return std::nullopt;
-}
-
 /// A light shines along -z of its node.
 void add_light(GltfFile& file, const GltfNode& node, const std::string& at, SceneDescription& scene) {
     const std::string type = file.json().text(at + "/type").value_or("none");
-    const std::optional<PunctualKind> kind = kind_of(type);
+    const auto kind = choice_named<PunctualKind>(type);
     if (!kind) return file.note(fmt::format("lights of the type {} are left out", type), at);
     const glm::dvec3 back(node.to_world[2]);
     if (*kind != PunctualKind::Point && !(glm::length(back) > 0.0))

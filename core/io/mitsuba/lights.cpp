@@ -23,14 +23,17 @@ glm::vec3 strength_of(const MitsubaObject& emitter, const char* name) {
     return strength;
 }
 
+glm::vec3 unit_of(const MitsubaObject& emitter, const glm::dvec3& direction) {
+    const double length = glm::length(direction);
+    if (!(length > 0.0) || !std::isfinite(length)) emitter.fail("expected a direction, got a vector of no length");
+    return glm::vec3(direction / length);
+}
+
 /// Along +z of the place, or 'direction', which it turns.
 glm::vec3 direction_of(const MitsubaObject& emitter) {
     glm::dvec3 local(0.0, 0.0, 1.0);
     if (const auto given = emitter.point("direction")) local = *given;
-    const glm::dvec3 direction = glm::dmat3(emitter.transform("to_world")) * local;
-    const double length = glm::length(direction);
-    if (!(length > 0.0) || !std::isfinite(length)) emitter.fail("expected a direction, got a vector of no length");
-    return glm::vec3(direction / length);
+    return unit_of(emitter, glm::dmat3(emitter.transform("to_world")) * local);
 }
 
 PunctualLightDescription point_light(const MitsubaObject& emitter, const glm::dvec3& origin) {
@@ -113,12 +116,6 @@ namespace {
 /// Years that are accepted. The error of sun_towards() is known for the years from 1999 to 2015.
 constexpr float kFirstYear = 1900.0f;
 constexpr float kLastYear = 2100.0f;
-
-glm::vec3 unit_of(const MitsubaObject& emitter, const glm::dvec3& direction) {
-    const double length = glm::length(direction);
-    if (!(length > 0.0) || !std::isfinite(length)) emitter.fail("expected a direction, got a vector of no length");
-    return glm::vec3(direction / length);
-}
 
 float within(const MitsubaObject& emitter, const char* name, float standard, float low, float high) {
     const float value = emitter.number(name).value_or(standard);

@@ -31,16 +31,16 @@ NoiseSums three_parts(std::uint32_t seed, int paths, double scale = 1.0) {
         const double a = std::sqrt(3.0) * normal(random);
         const double b = normal(random);
         const Contribution parts[] = {
-            {.found_by = FoundBy::LightSampling, .bounces = 1, .light = scale * a},
-            {.found_by = FoundBy::Bsdf, .bounces = 2, .light = scale * b},
-            {.found_by = FoundBy::Bsdf, .bounces = 20, .is_distant = true, .light = scale * (5.0 - 0.5 * a)},
+            {.found_by = Technique::LightSampling, .bounces = 1, .light = scale * a},
+            {.found_by = Technique::Bsdf, .bounces = 2, .light = scale * b},
+            {.found_by = Technique::Bsdf, .bounces = 20, .is_distant = true, .light = scale * (5.0 - 0.5 * a)},
         };
         sums.add(static_cast<std::size_t>(i) % kJackknifeGroups, parts);
     }
     return sums;
 }
 
-const Interval& share_of(const NoiseShares& shares, FoundBy technique) {
+const Interval& share_of(const NoiseShares& shares, Technique technique) {
     return shares.found_by[static_cast<std::size_t>(technique)];
 }
 
@@ -57,11 +57,11 @@ TEST_CASE("shares are covariances with the whole, and their intervals have the s
         CHECK_THAT(sum_of(estimate.shares->found_by), WithinAbs(1.0, 1.0e-12));
         CHECK_THAT(sum_of(estimate.shares->bounces), WithinAbs(1.0, 1.0e-12));
         CHECK_THAT(sum_of(estimate.shares->lights), WithinAbs(1.0, 1.0e-12));
-        missed[0] += share_of(*estimate.shares, FoundBy::LightSampling).contains(6.0 / 7.0) ? 0 : 1;
-        missed[1] += share_of(*estimate.shares, FoundBy::Bsdf).contains(1.0 / 7.0) ? 0 : 1;
+        missed[0] += share_of(*estimate.shares, Technique::LightSampling).contains(6.0 / 7.0) ? 0 : 1;
+        missed[1] += share_of(*estimate.shares, Technique::Bsdf).contains(1.0 / 7.0) ? 0 : 1;
         missed[2] += estimate.shares->bounces[kBounceClasses - 1].contains(-3.0 / 7.0) ? 0 : 1;
         CHECK(estimate.shares->bounces[kBounceClasses - 1].value == estimate.shares->lights[1].value);
-        CHECK(share_of(*estimate.shares, FoundBy::Field).value == 0.0);
+        CHECK(share_of(*estimate.shares, Technique::Field).value == 0.0);
     }
     for (const int count : missed) CHECK(count <= 15);
 }
@@ -95,7 +95,7 @@ TEST_CASE("the gain is the ratio of variances times seconds") {
 
 TEST_CASE("without variance there are neither shares nor a gain") {
     NoiseSums still;
-    const Contribution lamp[] = {{.found_by = FoundBy::Camera, .light = 2.0}};
+    const Contribution lamp[] = {{.found_by = Technique::Camera, .light = 2.0}};
     CHECK_FALSE(still.has_all_groups());
     for (std::size_t group = 0; group < kJackknifeGroups; ++group) still.add(group, lamp);
     still.add(0, lamp);
@@ -123,7 +123,7 @@ Session lit_floor(const SceneDescription& scene, bool next_event) {
     return session;
 }
 
-double share(const PixelEstimate& estimate, FoundBy technique) {
+double share(const PixelEstimate& estimate, Technique technique) {
     return estimate.shares->found_by[static_cast<std::size_t>(technique)].value;
 }
 
@@ -143,7 +143,7 @@ TEST_CASE("the variance of a floor under a lamp, by BSDF sampling, is that of a 
     CHECK(estimate.variance.high - estimate.variance.low < 0.04 * expected);
     CHECK_THAT(estimate.variance.value, WithinAbs(expected, estimate.variance.high - estimate.variance.low));
     CHECK_THAT(estimate.mean.value, WithinAbs(lamp.floor_radiance, estimate.mean.high - estimate.mean.low));
-    CHECK_THAT(share(estimate, FoundBy::Bsdf), WithinAbs(1.0, 1.0e-12));
+    CHECK_THAT(share(estimate, Technique::Bsdf), WithinAbs(1.0, 1.0e-12));
     CHECK_THAT(estimate.shares->bounces[1].value, WithinAbs(1.0, 1.0e-12));
     CHECK_THAT(estimate.shares->lights[0].value, WithinAbs(1.0, 1.0e-12));
 }
@@ -160,16 +160,16 @@ TEST_CASE("with light samples the noise of a floor under a lamp is that of both 
     for (std::uint32_t pass = 0; pass < 16384; ++pass) {
         double parts[2] = {0.0, 0.0};
         for (const Contribution& part : contributions_of(record_path(passes.plain, {}, 8 * 16 + 8, pass)))
-            parts[part.found_by == FoundBy::LightSampling ? 0 : 1] += part.light;
+            parts[part.found_by == Technique::LightSampling ? 0 : 1] += part.light;
         light.add(parts[0]);
         scattered.add(parts[1]);
     }
     const double expected = light.variance() / (light.variance() + scattered.variance());
-    const Interval& got = estimate.shares->found_by[static_cast<std::size_t>(FoundBy::LightSampling)];
+    const Interval& got = estimate.shares->found_by[static_cast<std::size_t>(Technique::LightSampling)];
     CAPTURE(expected, got.value, got.low, got.high);
     CHECK(got.high - got.low < 0.1);
     CHECK_THAT(got.value, WithinAbs(expected, 2.0 * (got.high - got.low)));
-    CHECK_THAT(share(estimate, FoundBy::Bsdf), WithinAbs(1.0 - got.value, 1.0e-12));
+    CHECK_THAT(share(estimate, Technique::Bsdf), WithinAbs(1.0 - got.value, 1.0e-12));
     CHECK_THAT(estimate.shares->bounces[1].value, WithinAbs(1.0, 1.0e-12));
 }
 
@@ -179,19 +179,19 @@ TEST_CASE("contributions are all of a path's light") {
     render_passes(session, 4);
     PassReplay passes = session.pass_replay(slot_of(session));
     const AnyFieldView field = field_of(passes);
-    std::array<int, kFoundByCount> found{};
+    std::array<int, kTechniqueCount> found{};
     for (std::uint32_t pixel = 0; pixel < 61 * 47; pixel += 7) {
         const PathRecord path = record_path(passes, field, pixel, 4);
         double sum = 0.0;
         for (const Contribution& part : contributions_of(path)) {
             sum += part.light;
             ++found[static_cast<std::size_t>(part.found_by)];
-            CHECK((part.found_by == FoundBy::Camera) == (part.bounces == 0));
+            CHECK((part.found_by == Technique::Camera) == (part.bounces == 0));
         }
         CHECK_THAT(sum, WithinAbs(static_cast<double>(path_light(path)), 1.0e-5 * (1.0 + sum)));
     }
-    CHECK(found[static_cast<std::size_t>(FoundBy::LightSampling)] > 0);
-    CHECK(found[static_cast<std::size_t>(FoundBy::Field)] > 0);
+    CHECK(found[static_cast<std::size_t>(Technique::LightSampling)] > 0);
+    CHECK(found[static_cast<std::size_t>(Technique::Field)] > 0);
 }
 
 TEST_CASE("guidance has estimates of its own, with every path guided, and the same figures again") {
@@ -203,8 +203,8 @@ TEST_CASE("guidance has estimates of its own, with every path guided, and the sa
     CHECK(noise.guided_method == MethodId::Reinforcement);
     CHECK(noise.plain.paths == 4096);
     CHECK(noise.guided->paths == 4096);
-    CHECK(share(noise.plain, FoundBy::Field) == 0.0);
-    CHECK(share(*noise.guided, FoundBy::Field) > 0.5);
+    CHECK(share(noise.plain, Technique::Field) == 0.0);
+    CHECK(share(*noise.guided, Technique::Field) > 0.5);
     CHECK(noise.plain.seconds_per_path > 0.0);
     REQUIRE(noise.gain);
     CHECK_THAT(noise.gain->net.value, WithinRel(noise.gain->samples.value * noise.gain->cost.value, 1.0e-9));

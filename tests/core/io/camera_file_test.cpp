@@ -61,7 +61,7 @@ TEST_CASE("A camera without a member has that of the scene") {
 }
 
 TEST_CASE("Faults of a file of cameras are told with file and line") {
-    CHECK_THAT(refused_cameras("{\"cameras\": []}"), contains("expected \"pathlight.cameras/1\", got \"none\""));
+    CHECK_THAT(refused_cameras("{\"cameras\": []}"), contains("expected \"pathlight.cameras/1\", got none"));
     CHECK_THAT(refused_cameras("{\n\"schema\": \"pathlight.scene/1\"}"),
                contains("path.json:2: 'schema': expected "));
     CHECK_THAT(refused_cameras(with_cameras("[{\n\"eye\": [1, 2]}]")), contains("path.json:4: 'cameras/0/eye'"));

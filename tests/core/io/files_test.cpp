@@ -28,7 +28,7 @@ TEST_CASE("A written file has the bytes and no companion") {
     const std::string bytes("one\0two\r\n\xff", 10);
     write_file_atomic(path, bytes);
     CHECK(read_file(path) == bytes);
-    write_text_file_atomic(path, "");
+    write_file_atomic(path, "");
     CHECK(read_file(path).empty());
     CHECK(folder.file_count() == 1);
 }

@@ -143,7 +143,7 @@ TEST_CASE("Remembered window: broken, foreign and unreadable files leave the fir
     for (const std::string text :
          {"", "{", "[]", "\xff\xfe", "{\"schema\": 3}", "{\"schema\": \"pathlight.viewer/0\"}",
           "{\"schema\": \"pathlight.viewer/1\", \"ui_scale\": \"x\"}"}) {
-        write_text_file_atomic(file, text);
+        write_file_atomic(file, text);
         RememberedWindow window(file, first);
         CAPTURE(text);
         CHECK_THAT(window.problem(), contains("as at a first start") && contains("viewer.json"));
@@ -158,7 +158,7 @@ TEST_CASE("Remembered window: broken, foreign and unreadable files leave the fir
 
 TEST_CASE("Remembered window: a file that cannot be written is one message") {
     const TemporaryFolder folder;
-    write_text_file_atomic(folder.path() / "file", "no folder");
+    write_file_atomic(folder.path() / "file", "no folder");
     Messages messages;
     RememberedWindow window(folder.path() / "file" / "viewer.json", {});
     for (int second = 0; second < 20; ++second)
