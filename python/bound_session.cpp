@@ -207,7 +207,7 @@ std::string BoundSession::view_command(const std::filesystem::path& folder, cons
         write_field(shown.load_field, session_->export_field(options_.render.method));
     }
     std::string text = command(Command::View, shown);
-    for (const std::string& word : option_words(options)) text += " " + shell_word(word);
+    for (const std::string& word : option_words(options)) text += fmt::format(" {}", shell_word(word));
     return text;
 }
 
