@@ -1,11 +1,5 @@
 #include "app/scene_picture.h"
 
-#include <fmt/format.h>
-
-#include "core/base/error.h"
-
-#if PL_VIEWER
-
 #include "core/io/load_scene.h"
 #include "ui/model/shown_volumes.h"
 #include "ui/pictures.h"
@@ -113,31 +107,3 @@ ByteImage draw_history(const std::vector<HistoryPoint>& points) {
 }
 
 }  // namespace pl
-
-#else
-
-namespace pl {
-
-void require_viewer_code(const std::string& option) {
-    throw Error(ErrorKind::Unavailable,
-                fmt::format("{} needs the drawing code of the viewer, which this build lacks", option));
-}
-
-ByteImage draw_in_scene(Session&, std::int32_t, const Options&) { return {}; }
-ByteImage draw_discs(const VolumeInspection&, const CameraDescription&, const std::vector<std::string>&,
-                     const LightReport*) {
-    return {};
-}
-ByteImage draw_gains(Session&, FilmSlot, const TileGains&, const DisplaySettings&) { return {}; }
-ByteImage draw_path_lines(Session&, const std::vector<diagnose::PathRecord>&, const Options&) { return {}; }
-struct FieldPast::Kept {};
-FieldPast::FieldPast() = default;
-FieldPast::~FieldPast() = default;
-std::uint32_t FieldPast::next(std::uint32_t passes) { return passes + 1; }
-void FieldPast::observe(const Session&, MethodId) {}
-std::vector<HistoryPoint> FieldPast::points(const IncidentLight&, std::int32_t, TargetLight) const { return {}; }
-ByteImage draw_history(const std::vector<HistoryPoint>&) { return {}; }
-
-}  // namespace pl
-
-#endif

@@ -1,18 +1,15 @@
 // `pathlight view`: the window, with back ends, scenes and the command line as the program knows them.
-#include "app/commands.h"
-#include "core/base/error.h"
-
-#if PL_VIEWER
-
 #include <algorithm>
 
 #include <fmt/format.h>
 
+#include "app/commands.h"
 #include "app/interrupt.h"
 #include "app/make_backend.h"
 #include "app/open_scene.h"
 #include "app/parse_values.h"
 #include "app/state_files.h"
+#include "core/base/error.h"
 #include "core/io/files.h"
 #include "core/io/load_scene.h"
 #include "cuda/availability.h"
@@ -167,17 +164,3 @@ int run_view(const CommandLine& line, Console& console) {
 }
 
 }  // namespace pl
-
-#else
-
-namespace pl {
-
-int run_view(const CommandLine& line, Console&) {
-    throw Error(ErrorKind::Unavailable,
-                "this build has no viewer (it needs SDL2 and Dear ImGui); without one: pathlight render " +
-                    line.options.scene + " -o picture.png");
-}
-
-}  // namespace pl
-
-#endif

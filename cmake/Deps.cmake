@@ -78,7 +78,7 @@ target_compile_definitions(dep_embree INTERFACE PL_EMBREE_MAJOR=${PL_EMBREE_MAJO
 # Optional: the viewer.
 find_package(SDL2 CONFIG QUIET)
 set(PL_VIEWER OFF)
-if(TARGET SDL2::SDL2 AND TARGET PkgConfig::PL_IMGUI AND NOT PL_PYTHON)
+if(TARGET SDL2::SDL2 AND TARGET PkgConfig::PL_IMGUI)
     pl_wrap(sdl2 SDL2::SDL2)
     pl_wrap(imgui PkgConfig::PL_IMGUI)
     set(PL_VIEWER ON)

@@ -31,12 +31,10 @@ set(pl_exact_flags -fno-fast-math -ffp-contract=off -fno-math-errno -fno-trappin
 target_compile_options(pl_options INTERFACE "$<$<COMPILE_LANGUAGE:CXX>:${pl_exact_flags}>")
 include("${CMAKE_CURRENT_LIST_DIR}/Arithmetic.cmake")
 
-# The same libraries in a module: hidden symbols are called and inlined as in a program.
-if(PL_PYTHON)
-    set(CMAKE_POSITION_INDEPENDENT_CODE ON)
-    set(CMAKE_CXX_VISIBILITY_PRESET hidden)
-    set(CMAKE_VISIBILITY_INLINES_HIDDEN ON)
-endif()
+# The same libraries in the program and in the Python module: hidden symbols are called and inlined as without position independence.
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+set(CMAKE_CXX_VISIBILITY_PRESET hidden)
+set(CMAKE_VISIBILITY_INLINES_HIDDEN ON)
 
 if(PL_FUZZ)
     if(NOT CMAKE_CXX_COMPILER_ID MATCHES "Clang" OR PL_TESTS STREQUAL "ON")

@@ -49,7 +49,7 @@ bool returns_radiance(const nb::handle& learner) {
 }  // namespace
 
 FieldLearner bound_learner(const nb::handle& learner) {
-    if (!nb::hasattr(learner, "update"))
+    if (!nb::hasattr(learner, "update") || PyType_Check(learner.ptr()))
         throw Error(ErrorKind::Usage, fmt::format("learner: expected an object with a method update(samples), got {}",
                                                   nb::repr(learner).c_str()));
     return [learner, are_radiance = returns_radiance(learner)](const LearnerInput& input) {

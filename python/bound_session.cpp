@@ -36,14 +36,19 @@ bool is_of_scene(const LoadSettings& load) {
            load.up_axis;
 }
 
-/// The command line that renders with these options.
-CommandLine command_line(const std::string& scene, const nb::kwargs& options) {
-    const std::string no_file = "none.exr";  // the command needs a name; no file is written
-    std::vector<std::string> arguments{"render", scene, "--output=" + no_file};
+constexpr const char* kNoFile = "none.exr";  // the command needs a name; no file is written
+
+CommandLine render_line(const std::string& scene, const nb::kwargs& options) {
+    std::vector<std::string> arguments{"render", scene, std::string("--output=") + kNoFile};
     std::ranges::copy(option_words(options), std::back_inserter(arguments));
-    CommandLine line = parse_command_line(arguments);
+    return parse_command_line(arguments);
+}
+
+/// The command line that renders with these options, which are those of a session.
+CommandLine session_line(const std::string& scene, const nb::kwargs& options) {
+    CommandLine line = render_line(scene, options);
     for (const GivenOption& given : line.given)
-        if (!is_of_session(given) && given.text != no_file)
+        if (!is_of_session(given) && given.text != kNoFile)
             throw Error(ErrorKind::Usage, fmt::format("--{}: is no option of a session", given.spec->name));
     if (is_of_scene(line.options.load))
         throw Error(ErrorKind::Usage,
@@ -84,7 +89,7 @@ NumpyArray<float> picture_array(std::vector<Vec3f> pixels, int width, int height
 
 BoundSession::BoundSession(const BoundScene& scene, const nb::object& learner, const nb::kwargs& options)
     : scene_(scene) {
-    const CommandLine line = command_line(scene.name, options);
+    const CommandLine line = session_line(scene.name, options);
     {
         const nb::gil_scoped_release released;
         FieldFiles fields(line.options);
@@ -110,14 +115,18 @@ void BoundSession::set_learner(const nb::object& learner) {
     learner_ = learner;
 }
 
-void BoundSession::render(std::optional<std::uint32_t> spp, std::optional<double> seconds,
-                          std::optional<double> target_error) {
+void BoundSession::render(const nb::object& spp, const nb::object& seconds, const nb::object& target_error) {
     const SoleUse held = use();
+    nb::kwargs given;
+    given["spp"] = spp;
+    given["time_limit"] = seconds;
+    given["target_error"] = target_error;
+    const Options told = render_line(scene_.name, given).options;
     Options limits = options_;
-    if (spp || seconds || target_error) {
-        limits.spp = spp;
-        limits.time_limit_seconds = seconds;
-        limits.target_error = target_error;
+    if (told.spp || told.time_limit_seconds || told.target_error) {
+        limits.spp = told.spp;
+        limits.time_limit_seconds = told.time_limit_seconds;
+        limits.target_error = told.target_error;
     }
     target_.reset();
     if (limits.target_error) target_.emplace(*limits.target_error);
@@ -207,7 +216,7 @@ std::string BoundSession::view_command(const std::filesystem::path& folder, cons
         write_field(shown.load_field, session_->export_field(options_.render.method));
     }
     std::string text = command(Command::View, shown);
-    for (const std::string& word : option_words(options)) text += " " + shell_word(word);
+    for (const std::string& word : option_words(options)) text += fmt::format(" {}", shell_word(word));
     return text;
 }
 
@@ -245,6 +254,8 @@ void bind_session(nb::module_& module) {
              "the film stays sound.")
         .def("render", &BoundSession::render, nb::kw_only(), nb::arg("spp") = nb::none(),
              nb::arg("seconds") = nb::none(), nb::arg("target_error") = nb::none(),
+             nb::sig("def render(self, *, spp: int | None = None, seconds: float | None = None, "
+                     "target_error: float | None = None) -> None"),
              "Renders until the film has `spp` samples per pixel, for `seconds` of this call, or down to a "
              "relMSE of its noise; the first limit that is reached ends it. Without any as the command line. "
              "Other threads of Python go on; Ctrl+C ends it, and the next call continues. A bar of tqdm, where "

@@ -20,7 +20,7 @@ public:
 
     /// Renders until the film has `spp` samples per pixel, for so many seconds, or down to that noise; without limits as the command
     /// line. Throws what signal handlers of Python raise, after an orderly stop.
-    void render(std::optional<std::uint32_t> spp, std::optional<double> seconds, std::optional<double> target_error);
+    void render(const nb::object& spp, const nb::object& seconds, const nb::object& target_error);
 
     std::uint32_t passes() const;
     NumpyArray<float> film() const;

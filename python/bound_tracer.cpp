@@ -82,7 +82,7 @@ public:
         if (!(bsdf_fraction >= 0.0f && bsdf_fraction <= 1.0f))
             throw Error(ErrorKind::Usage, fmt::format("bsdf_fraction: expected 0 to 1, got {:g}", bsdf_fraction));
         if (sampler.is_none()) return;
-        if (!nb::hasattr(sampler, "sample") || !nb::hasattr(sampler, "pdf"))
+        if (!nb::hasattr(sampler, "sample") || !nb::hasattr(sampler, "pdf") || PyType_Check(sampler.ptr()))
             throw Error(ErrorKind::Usage,
                         fmt::format("sampler: expected an object with methods sample(vertices) and pdf(vertices, "
                                     "directions), got {}",

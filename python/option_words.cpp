@@ -16,6 +16,7 @@ bool is_instance(const nb::handle& value, PyTypeObject& type) { return PyObject_
 
 /// A value as it is typed on the command line: True: on; (1, 2): 1,2; {'passes': 4}: passes=4.
 std::string option_text(const nb::handle& value, const char* separator = ",") {
+    if (nb::hasattr(value, "tolist")) return option_text(value.attr("tolist")(), separator);  // of NumPy
     if (is_instance(value, PyBool_Type)) return value.is(Py_True) ? "on" : "off";
     if (!is_instance(value, PyList_Type) && !is_instance(value, PyTuple_Type) && !is_instance(value, PyDict_Type))
         return nb::str(value).c_str();

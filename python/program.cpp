@@ -22,7 +22,9 @@ nb::list run_program(const nb::args& words, const nb::kwargs& options) {
     std::ranges::copy(option_words(options), std::back_inserter(arguments));
     arguments.insert(arguments.end(), {"--json", "--quiet"});
     CommandLine line = parse_command_line(arguments);
-    if (line.answer) throw Error(ErrorKind::Usage, "run: expected a subcommand such as 'bench', which has events");
+    if (line.answer || line.command == Command::View)
+        throw Error(ErrorKind::Usage,
+                    "run: expected a subcommand such as 'bench', which has events; Session.view() opens the window");
     std::string output;
     Console console;
     console.configure(line.options);

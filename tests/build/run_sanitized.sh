@@ -15,7 +15,7 @@ fi
 
 # Unity build: as few large sources as there can be, whose templates are compiled once.
 cmake -S "$source" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=RelWithDebInfo -DCMAKE_CXX_FLAGS_RELWITHDEBINFO="-O1 -g1" \
-    -DCMAKE_UNITY_BUILD=ON -DPL_SANITIZE=address,undefined -DPL_CUDA=OFF -DPL_MPI=OFF -DPL_TESTS=OFF \
+    -DCMAKE_UNITY_BUILD=ON -DPL_SANITIZE=address,undefined -DPL_CUDA=OFF -DPL_MPI=OFF -DPL_TESTS=OFF -DCMAKE_DISABLE_FIND_PACKAGE_SDL2=ON \
     -DPL_PYTHON=$module -DPython_EXECUTABLE="$python" >"$build.log" 2>&1 ||
     { cat "$build.log"; exit 1; }
 cmake --build "$build" --target "${targets[@]}" -j 2 >>"$build.log" 2>&1 || { tail -50 "$build.log"; exit 1; }

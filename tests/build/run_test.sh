@@ -107,20 +107,25 @@ start --no-install info
 expect 'not held' "$out"
 refuse 'Another ./run' "$err"
 
-# The Python module is compiled apart from the program, for an environment that has what it takes.
+# The Python module is made of the program's objects, for an environment that has what it takes; the tests have it, too.
 fresh
 start --no-install --with python info
 expect_code 4
-expect 'build/venv lacks nanobind or numpy' "$err"
+expect 'build/venv lacks nanobind, numpy or pytest' "$err"
 fresh
-mkdir -p "$work/root/build/venv/bin"
-printf '%s\n' '#!/bin/sh' "[ \"\$2\" = 'import nanobind, numpy' ] || echo \"$work/root/build/venv\"" >"$work/root/build/venv/bin/python"
+mkdir -p "$work"/root/build/venv/{bin,nanobind,numpy,pytest}
+printf '%s\n' '#!/bin/sh' "echo \"$work/root/build/venv\"" >"$work/root/build/venv/bin/python"
 chmod +x "$work/root/build/venv/bin/python"
 start --no-install --with python info
 expect_code 0
-expect "-B $work/root/build/module --log-level=NOTICE -DPL_PYTHON=ON" "$calls"
-[[ $(<"$work/root/build/venv/pathlight.pth") == "$work/root/build/module/python" ]] || fail 'expected the path of the module'
+expect '-DPL_PYTHON=ON' "$calls"
+refuse "-B $work/root/build/module" "$calls"
+[[ $(<"$work/root/build/venv/pathlight.pth") == "$work/root/build/release/python" ]] || fail 'expected the path of the module'
 expect 'pathlight: info' "$out"
+start --no-install info
+[[ -z $calls ]] || fail 'expected that a second start configures and builds nothing'
+start --no-install test
+expect '-DPL_PYTHON=ON' "$calls"
 
 # Tests compile device code wherever nvcc is, in continuous integration for one architecture; a start after them keeps it.
 fresh

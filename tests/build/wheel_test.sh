@@ -11,7 +11,7 @@ pip() { "$work/venv/bin/python" -m pip --disable-pip-version-check -q "$@"; }
 "$python" -m venv "$work/venv"
 pip install pytest matplotlib || { echo "skipped: no pytest and matplotlib from PyPI"; exit 77; }
 began=$SECONDS
-pip wheel "$root" --no-deps --wheel-dir "$work" --config-settings=build-dir="$build/wheel"
+pip wheel "$root" --no-deps --wheel-dir "$work" --config-settings=build-dir="$build-wheel"
 wheel=$(ls "$work"/*.whl)
 echo "$(basename "$wheel"): $(stat -c %s "$wheel") bytes, $((SECONDS - began)) s"
 pip install "$wheel"

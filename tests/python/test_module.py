@@ -2,6 +2,8 @@
 
 import ast
 import pathlib
+import subprocess
+import sys
 
 import pytest
 
@@ -25,3 +27,10 @@ def test_errors_have_one_base(kind):
     error = getattr(pathlight, kind)
     assert issubclass(error, pathlight.Error) and issubclass(error, (ValueError, RuntimeError))
     assert repr(error) == f"<class 'pathlight.{kind}'>"
+
+
+def test_the_module_needs_no_window_and_no_job():
+    """The program of the same build may have both, and objects in common with the module."""
+    loaded = "import pathlight; print(open('/proc/self/maps').read())"
+    libraries = subprocess.run([sys.executable, "-c", loaded], stdout=subprocess.PIPE, text=True, check=True).stdout
+    assert "_pathlight" in libraries and "libSDL" not in libraries and "libmpi" not in libraries

@@ -30,6 +30,11 @@ def test_switches_have_no_value(tmp_path):
     assert of_kind(events, "truth") and of_kind(events, "done")
 
 
+def test_the_window_is_opened_by_a_session():
+    with pytest.raises(pathlight.UsageError, match=r"Session.view\(\) opens the window"):
+        pathlight.run("view", "door")
+
+
 @pytest.mark.parametrize("words", [("bench",), ("paint", "door"), ("info", "dor"), ("help",)])
 def test_errors_are_exceptions(words):
     with pytest.raises(pathlight.Error):

@@ -95,6 +95,15 @@ def test_limits_end_a_rendering(door):
     assert session.statistics()["ended_by"] == "target-error"
 
 
+@pytest.mark.parametrize("limit", [dict(spp=0), dict(spp=-1), dict(spp=2.5), dict(seconds=-1), dict(seconds=float("nan")), dict(target_error=0)])
+def test_limits_that_are_none_are_refused(door, limit):
+    """Without end: no picture reaches the error 0, and no time is later than nan."""
+    session = pathlight.Session(door, **SMALL)
+    with pytest.raises(pathlight.UsageError, match="expected .* got"):
+        session.render(**limit)
+    assert session.passes == 0
+
+
 @pytest.mark.parametrize(
     "options, text",
     [
@@ -106,6 +115,7 @@ def test_limits_end_a_rendering(door):
         (dict(define="gap=1"), "Scene(..., parameters"),
         (dict(backend="cuda", field="sd-tree", method="reinforcement"), "cuda"),
         (dict(learner=object()), "update(samples)"),
+        (dict(method="reinforcement", learner=Uniform), "update(samples), got <class"),
     ],
 )
 def test_errors_name_the_option(door, options, text):
@@ -123,8 +133,10 @@ def test_sizes_are_pairs_and_learners_may_change(door):
             weights[:, 7] = 1
             return weights
 
-    session = pathlight.Session(door, method="reinforcement", guiding="always", size=(48, 32), volumes=50, bins=64)
+    options = dict(method="reinforcement", guiding="always", volumes=50, bins=64, nee=np.bool_(False))
+    session = pathlight.Session(door, size=np.array([48, 32]), **options)
     session.render(spp=1)
+    assert session.statistics()["nee"] is False
     assert session.learner is None and session.film().shape == (32, 48, 3)
     peaks = (session.field.probabilities[:, 7] > 0.9).sum()
     session.learner = learner = Peak()

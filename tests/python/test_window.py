@@ -10,11 +10,11 @@ from test_scene import arrays
 
 SMALL = dict(width=48, height=32, method="reinforcement", guiding="always", nee=False, volumes=40, bins=64)
 CHECKS = """
+0 wait learned >= 65
 0 wait shown_spp >= 1
 0 expect scene ~ {scene}
 0 expect method == reinforcement
 0 expect nee == no
-0 expect learned >= 65
 1 quit
 """
 
