@@ -59,9 +59,10 @@ struct GuiMemory {
     PictureTextures* textures = nullptr;  ///< of the window's renderer
     int keyed_panel = -1;                 ///< the panel that was given the keyboard in the last frame; -1: none
     float pointer_rest_seconds = 0.0f;    ///< since the pointer moved: tooltips wait for rest
-    float top_card_end = 0.0f;    ///< lower edge of the card over the picture's top in the last frame; 0 without one
-    float low_card_start = 0.0f;  ///< upper edge of the one over its bottom; infinite without one
-    std::string badges{};         ///< over the picture in the last frame, for scripts
+    float top_card_end = 0.0f;     ///< lower edge of the card over the picture's top in the last frame; 0 without one
+    float low_card_start = 0.0f;   ///< upper edge of the one over its bottom; infinite without one
+    float low_card_height = 0.0f;  ///< of the last such card: cards follow their text
+    std::string badges{};          ///< over the picture in the last frame, for scripts
     /// Rectangles of the controls in the last frame by their labels: scripts point at them.
     std::map<std::string, Rect, std::less<>> places;
 };

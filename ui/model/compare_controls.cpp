@@ -13,7 +13,7 @@ void CompareControls::update() {
     const auto labels = labels_in_turns();
     const auto runs = link_.worker().runs();
     accuracy_.update(runs, link_.status().picture, reference != nullptr ? reference->noise_relmse : 0.0,
-                     labels ? base_of_turns(runs->runs, *labels) : std::nullopt);
+                     labels ? base_of_turns(runs->runs, *labels) : std::nullopt, in_turns());
     // In turns each side tells its passes when the other one takes over.
     accuracy_.set_passes(link_.turns() ? 0 : link_.status().passes);
 }
