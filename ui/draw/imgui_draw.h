@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <string>
+#include <vector>
 
 #include <imgui.h>
 
@@ -81,9 +82,11 @@ struct SDL_Texture;
 
 namespace pl::ui {
 
+/// A software renderer takes most of the time of a frame, and most panels are as they were: an opaque window that is equal in two frames
+/// is drawn into a texture, and copied from then on.
 class ImGuiDraw {
 public:
-    explicit ImGuiDraw(SDL_Renderer* renderer) : renderer_(renderer) {}
+    explicit ImGuiDraw(SDL_Renderer* renderer);
     ~ImGuiDraw();
     ImGuiDraw(const ImGuiDraw&) = delete;
     ImGuiDraw& operator=(const ImGuiDraw&) = delete;
@@ -91,10 +94,33 @@ public:
     /// After fonts were added to the atlas.
     void upload_fonts();
     void draw(const ImDrawData& data);
+    /// Windows that the last draw() has copied.
+    std::size_t copied() const { return copied_; }
 
 private:
+    /// What a window was made of in the last frame.
+    struct KeptWindow {
+        std::vector<ImDrawVert> vertices{};
+        std::vector<ImDrawIdx> indices{};
+        std::vector<ImDrawCmd> commands{};
+        SDL_Texture* texture = nullptr;
+        bool is_open = false;
+
+        bool equals(const ImDrawList& list) const;
+        void take(const ImDrawList& list);
+    };
+
+    /// Within `bounds`. `vertices`: of the list, moved so that `origin` is the corner of the target.
+    void draw_list(const ImDrawList& list, const ImDrawVert* vertices, const Rect& bounds, ImVec2 origin);
+    void draw_window(const ImDrawList& list, const Rect& place);
+    SDL_Texture* make_texture(const KeptWindow& window, const ImDrawList& list, const Rect& place);
+    void forget_windows();
+
     SDL_Renderer* renderer_;
     SDL_Texture* fonts_ = nullptr;
+    bool keeps_windows_;
+    std::map<std::string, KeptWindow, std::less<>> windows_;  ///< by their names
+    std::size_t copied_ = 0;
 };
 
 }  // namespace pl::ui

@@ -104,6 +104,15 @@ std::optional<std::array<RunLabel, 2>> CompareControls::labels_in_turns() const 
     return std::array{now(), label_of(turns.methods[1], turns.second ? *turns.second : render_.settings())};
 }
 
+std::optional<TurnsHeadline> CompareControls::headline() const {
+    const auto labels = labels_in_turns();
+    if (!labels) return std::nullopt;
+    const auto& turns = link_.status().turns;
+    std::optional<std::size_t> late;
+    if (turns && turns->catching_up) late = turns->seconds[0] < turns->seconds[1] ? 0 : 1;
+    return turns_headline(accuracy_.table(), *labels, late);
+}
+
 /// Of a run that renders the picture in the window.
 RunLabel CompareControls::label_of(MethodId method, const RenderSettings& settings) const {
     return {.method = method,

@@ -183,8 +183,8 @@ std::string lesson_text(const ViewerModel& model) {
 std::string seen_text(const ViewerModel& model, int step) {
     if (step == kPays) return lesson_text(model);
     if (step != kSplit) return kSteps[static_cast<std::size_t>(step)].seen;
-    const auto halves = model.comparison().labels_in_turns();
-    return halves ? turns_headline(model.comparison().accuracy().table(), *halves).text : lesson_text(model);
+    const auto headline = model.comparison().headline();
+    return headline ? headline->text : lesson_text(model);
 }
 
 std::string state_text(const GuidedTour& tour) {

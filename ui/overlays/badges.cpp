@@ -161,14 +161,7 @@ void add_field_badge(BadgeRow& row, const ViewerModel& model) {
     if (!is_shown || model.comparison().state().mode == CompareMode::Off) return;
     const RunLabel run = model.comparison().now();
     row.add("lobes and volumes: " + name_of(run),
-            to_imgui_color(run_color(model.comparison().accuracy().runs(), run)));
-}
-
-void add_turns_badge(BadgeRow& row, const ViewerModel& model) {
-    const auto halves = model.comparison().labels_in_turns();
-    const auto& turns = model.status().turns;
-    if (halves && turns && turns->catching_up)
-        row.add(name_of((*halves)[turns->seconds[0] < turns->seconds[1] ? 0 : 1]) + " catches up", colors::kWarning);
+            to_text_color(run_color(model.comparison().accuracy().runs(), run)));
 }
 
 void add_reference_badge(BadgeRow& row, const ViewerModel& model) {
@@ -209,7 +202,7 @@ void add_gain_badges(BadgeRow& row, const GainMarks& marks) {
         row.add("gain marks: " + (marks.reason().empty() ? "measuring" : marks.reason()), colors::kWarning);
         return;
     }
-    const auto color = [](Verdict verdict) { return to_imgui_color(mark_color(verdict)); };
+    const auto color = [](Verdict verdict) { return to_text_color(mark_color(verdict)); };
     for (const Verdict verdict :
          {Verdict::Faster, Verdict::Slower, Verdict::NoDifference, Verdict::Undecided, Verdict::Unresolved}) {
         const auto count =
@@ -265,7 +258,6 @@ void draw_badges(ViewerModel& model, const Layout& layout, const ComparePlan& pl
                 colors::kWarning);
     add_compare_badges(row, model, plan);
     const WorkerStatus& status = model.status();
-    add_turns_badge(row, model);
     add_reference_badge(row, model);
     if (plan.tiles.empty()) add_diagnostics_badges(row, model);
     add_gain_badges(row, model.gain_marks());

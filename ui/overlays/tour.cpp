@@ -45,11 +45,9 @@ void large_text(const std::string& text, ImU32 color) {
 }
 
 /// Two runs in turns, in one sentence that is true now. Where there is little room it is all, in smaller type.
-void draw_headline(const ViewerModel& model, const std::array<RunLabel, 2>& halves) {
+void draw_headline(const ViewerModel& model, const TurnsHeadline& headline) {
     const bool next_event = model.render().settings().next_event;
-    const AccuracyModel& accuracy = model.comparison().accuracy();
-    const TurnsHeadline headline = turns_headline(accuracy.table(), halves);
-    const bool is_old = headline.row != nullptr && accuracy.is_old(*headline.row);
+    const bool is_old = headline.row != nullptr && model.comparison().accuracy().is_old(*headline.row);
     const bool is_narrow = ImGui::GetContentRegionAvail().x < em(24.0f);
     const ImU32 color = is_old ? colors::kFaint : colors::kText;
     if (is_narrow)
@@ -151,7 +149,7 @@ void draw_tour(ViewerModel& model, const Layout& layout, const Rect& image, cons
         // Without buttons clicks go through it to the picture.
         begin_card("headline", view, low_card_edge(view, plan), true,
                    phase == Phase::Off ? ImGuiWindowFlags_NoInputs : 0);
-        if (const auto halves = model.comparison().labels_in_turns()) draw_headline(model, *halves);
+        if (const auto headline = model.comparison().headline()) draw_headline(model, *headline);
         if (phase == Phase::Offered) draw_offer(model);
         const Rect card = end_card("headline");
         memory.low_card_start = card.y;

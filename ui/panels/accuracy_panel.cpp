@@ -64,7 +64,7 @@ void draw_row(const CursorRow& row, const AccuracyModel& model) {
     const auto run = find_run(model.runs(), row.run);
     if (!run) return;
     ImGui::TableNextRow();
-    text_cell(name_of(run->label), to_imgui_color(run_color(model.runs(), run->label)));
+    text_cell(name_of(run->label), to_text_color(run_color(model.runs(), run->label)));
     const bool at_error = model.cursor().kind == Cursor::Kind::EqualError;
     const std::optional<double>& shown = at_error ? row.cost : row.error;
     if (!shown)

@@ -256,7 +256,7 @@ void draw_hover(const AccuracyModel& model, ImDrawList& list, const Rect& frame)
         if (other.value.x <= point.value.x) until.push_back({other.value.x, other.value.y});
     const double slope = log_slope(until);
     begin_tooltip();
-    ImGui::TextColored(to_vec4(to_imgui_color(line.color)), "%s", line.name.c_str());
+    ImGui::TextColored(to_vec4(to_text_color(line.color)), "%s", line.name.c_str());
     ImGui::TextUnformatted(
         fmt::format("{}   {} spp", short_seconds(charged_seconds(measured.clocks)), measured.spp).c_str());
     ImGui::TextUnformatted(fmt::format("{} {:.4g}", info_of(model.kind().metric).label, point.value.y).c_str());

@@ -75,8 +75,10 @@ struct TurnsHeadline {
     std::string detail;           ///< the number behind it with its interval; empty as long as nothing is measured
     const RunRow* row = nullptr;  ///< of the table: whose number it is
 };
-/// `halves`: the left and the right run. They have the base of the table.
-TurnsHeadline turns_headline(const RunTable& table, const std::array<RunLabel, 2>& halves);
+/// `halves`: the left and the right run. They have the base of the table. `late`: the half that works alone until both have had the same
+/// time.
+TurnsHeadline turns_headline(const RunTable& table, const std::array<RunLabel, 2>& halves,
+                             std::optional<std::size_t> late = std::nullopt);
 
 /// The newest row of the method that learns, with or without light samples, if it has a gain with an interval and began with nothing
 /// learned; else null.

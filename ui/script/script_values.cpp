@@ -276,8 +276,8 @@ constexpr std::array kValues{
     Value{"lesson", [](const ViewerModel& m) { return lesson_text(m); }},
     Value{"tells",
           [](const ViewerModel& m) {
-              const auto halves = m.comparison().labels_in_turns();
-              return halves ? turns_headline(m.comparison().accuracy().table(), *halves).text : std::string("none");
+              const auto headline = m.comparison().headline();
+              return headline ? headline->text : std::string("none");
           }},
     Value{"dialog", [](const ViewerModel& m) { return word(m.open_dialog().is_shown()); }},
     Value{"open_choice", [](const ViewerModel& m) { return m.open_dialog().choice(); }},

@@ -157,6 +157,7 @@ TEST_CASE("Run table: one sentence on two methods in turns, by the number of the
     // Without an interval nothing is claimed.
     CHECK(turns_headline(table, halves).text == "Both halves get the same time. Has the left one less noise?");
     CHECK(turns_headline(table, halves).detail == "");
+    CHECK(turns_headline(table, halves, 1).text == "The right half catches up, until both have had the same time.");
     RunRow& row = table.rows[1];
     const auto say = [&](double low, double value, double high) {
         row.gain->net = {value, low, high};
