@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <string>
+#include <vector>
 
 #include <imgui.h>
 
@@ -59,9 +60,10 @@ struct GuiMemory {
     PictureTextures* textures = nullptr;  ///< of the window's renderer
     int keyed_panel = -1;                 ///< the panel that was given the keyboard in the last frame; -1: none
     float pointer_rest_seconds = 0.0f;    ///< since the pointer moved: tooltips wait for rest
-    float top_card_end = 0.0f;    ///< lower edge of the card over the picture's top in the last frame; 0 without one
-    float low_card_start = 0.0f;  ///< upper edge of the one over its bottom; infinite without one
-    std::string badges{};         ///< over the picture in the last frame, for scripts
+    float top_card_end = 0.0f;     ///< lower edge of the card over the picture's top in the last frame; 0 without one
+    float low_card_start = 0.0f;   ///< upper edge of the one over its bottom; infinite without one
+    float low_card_height = 0.0f;  ///< of the last such card: cards follow their text
+    std::string badges{};          ///< over the picture in the last frame, for scripts
     /// Rectangles of the controls in the last frame by their labels: scripts point at them.
     std::map<std::string, Rect, std::less<>> places;
 };
@@ -80,9 +82,11 @@ struct SDL_Texture;
 
 namespace pl::ui {
 
+/// A software renderer takes most of the time of a frame, and most panels are as they were: an opaque window that is equal in two frames
+/// is drawn into a texture, and copied from then on.
 class ImGuiDraw {
 public:
-    explicit ImGuiDraw(SDL_Renderer* renderer) : renderer_(renderer) {}
+    explicit ImGuiDraw(SDL_Renderer* renderer);
     ~ImGuiDraw();
     ImGuiDraw(const ImGuiDraw&) = delete;
     ImGuiDraw& operator=(const ImGuiDraw&) = delete;
@@ -90,10 +94,33 @@ public:
     /// After fonts were added to the atlas.
     void upload_fonts();
     void draw(const ImDrawData& data);
+    /// Windows that the last draw() has copied.
+    std::size_t copied() const { return copied_; }
 
 private:
+    /// What a window was made of in the last frame.
+    struct KeptWindow {
+        std::vector<ImDrawVert> vertices{};
+        std::vector<ImDrawIdx> indices{};
+        std::vector<ImDrawCmd> commands{};
+        SDL_Texture* texture = nullptr;
+        bool is_open = false;
+
+        bool equals(const ImDrawList& list) const;
+        void take(const ImDrawList& list);
+    };
+
+    /// Within `bounds`. `vertices`: of the list, moved so that `origin` is the corner of the target.
+    void draw_list(const ImDrawList& list, const ImDrawVert* vertices, const Rect& bounds, ImVec2 origin);
+    void draw_window(const ImDrawList& list, const Rect& place);
+    SDL_Texture* make_texture(const KeptWindow& window, const ImDrawList& list, const Rect& place);
+    void forget_windows();
+
     SDL_Renderer* renderer_;
     SDL_Texture* fonts_ = nullptr;
+    bool keeps_windows_;
+    std::map<std::string, KeptWindow, std::less<>> windows_;  ///< by their names
+    std::size_t copied_ = 0;
 };
 
 }  // namespace pl::ui

@@ -121,6 +121,14 @@ void load_fonts(const std::filesystem::path& font, float ui_scale) {
     for (const float height : {1.0f, kLargeText}) add_font(atlas, font, std::round(kFontPixels * ui_scale * height));
 }
 
+ImU32 to_text_color(std::uint32_t argb) {
+    constexpr float kOnLight = 0.5f;
+    const ImVec4 color = to_vec4(to_imgui_color(argb));
+    const bool is_light = to_vec4(colors::kGround).x > 0.5f;
+    const float scale = is_light ? kOnLight : 1.0f;
+    return ImGui::ColorConvertFloat4ToU32({scale * color.x, scale * color.y, scale * color.z, color.w});
+}
+
 ImFont* large_font() { return ImGui::GetIO().Fonts->Fonts.back(); }
 
 }  // namespace pl::ui

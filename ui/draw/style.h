@@ -43,6 +43,9 @@ inline ImU32 to_imgui_color(std::uint32_t argb) {
     return IM_COL32(argb >> 16 & 255, argb >> 8 & 255, argb & 255, argb >> 24);
 }
 
+/// A bright color as text: darker on a light ground.
+ImU32 to_text_color(std::uint32_t argb);
+
 inline ImVec4 to_vec4(ImU32 color) { return ImGui::ColorConvertU32ToFloat4(color); }
 
 }  // namespace pl::ui

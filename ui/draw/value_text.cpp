@@ -1,5 +1,6 @@
 #include "ui/draw/value_text.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -37,6 +38,24 @@ std::string short_seconds(double seconds) {
 const char* light_samples_text(bool on) { return on ? "light samples on" : "light samples off"; }
 
 std::string passes_text(std::uint64_t count) { return fmt::format("{} {}", count, count == 1 ? "pass" : "passes"); }
+
+std::string broken_at_spaces(std::string_view text, float width,
+                             const std::function<float(std::string_view)>& width_of) {
+    std::string lines(text);
+    const float space = width_of(" ");
+    float used = 0.0f;
+    for (std::size_t start = 0; start < text.size();) {
+        const std::size_t end = std::min(text.find_first_of(" \n", start), text.size());
+        const float word = width_of(text.substr(start, end - start));
+        if (used > 0.0f && used + word > width) {
+            lines[start - 1] = '\n';
+            used = 0.0f;
+        }
+        used = end < text.size() && text[end] == '\n' ? 0.0f : used + word + space;
+        start = end + 1;
+    }
+    return lines;
+}
 
 std::string method_keys(bool MethodInfo::*flag) {
     std::string keys;

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cfloat>
 #include <cmath>
 
 #include <fmt/format.h>
 
 #include "ui/draw/imgui_draw.h"
+#include "ui/draw/value_text.h"
 
 namespace pl::ui {
 namespace {
@@ -129,7 +131,8 @@ void place_tooltip() {
     const float gap = em(0.4f);
     const float needed = em(kTooltipEm + 1.5f);
     const bool is_low = low.y > 0.5f * screen.y;
-    const float y = is_low ? high.y : low.y;
+    // Nor does it cover the card over the picture.
+    const float y = is_low ? high.y : std::max(low.y, gui_memory().top_card_end + gap);
     if (corner.x + size.x + needed <= screen.x)
         ImGui::SetNextWindowPos({corner.x + size.x + gap, y}, ImGuiCond_Always, {0.0f, is_low ? 1.0f : 0.0f});
     else if (corner.x >= needed)
@@ -160,9 +163,7 @@ void tooltip(const char* text) {
         gui_memory().pointer_rest_seconds < kRestSeconds)
         return;
     begin_tooltip();
-    ImGui::PushTextWrapPos(em(kTooltipEm));
-    ImGui::TextUnformatted(text);
-    ImGui::PopTextWrapPos();
+    wrapped_text(text, em(kTooltipEm));
     end_tooltip();
 }
 
@@ -191,12 +192,12 @@ void begin_row(const char* label, const char* tip) {
 void text_row(const char* label, const std::string& value, const char* tip, ImU32 color) {
     ImGui::TextDisabled("%s", label);
     tooltip(tip);
-    ImGui::SameLine(em(kLabelEm));
+    ImGui::SameLine(std::max(em(kLabelEm), ImGui::CalcTextSize(label).x + em(0.8f)));
     ImGui::PushStyleColor(ImGuiCol_Text, color);
     // A tooltip has no width at which text could wrap.
     const bool wraps = ImGui::GetContentRegionAvail().x > em(3.0f);
     if (wraps)
-        ImGui::TextWrapped("%s", value.c_str());
+        wrapped_text(value.c_str());
     else
         ImGui::TextUnformatted(value.c_str());
     ImGui::PopStyleColor();
@@ -215,6 +216,11 @@ bool slider_row(const char* label, const char* tip, float* value, const SliderRa
         changed = true;
     }
     return changed;
+}
+
+void same_line_for(float width) {
+    ImGui::SameLine();
+    if (ImGui::GetContentRegionAvail().x < width) ImGui::NewLine();
 }
 
 bool toggle_row(const char* label, const char* tip, bool* value) {
@@ -331,9 +337,23 @@ bool section(const char* title, bool open_at_first) {
     return open;
 }
 
+std::string text_in_lines(std::string_view text, float width) {
+    ImFont& font = *ImGui::GetFont();
+    return broken_at_spaces(text, width, [&](std::string_view part) {
+        return font.CalcTextSizeA(ImGui::GetFontSize(), FLT_MAX, 0.0f, part.data(), part.data() + part.size()).x;
+    });
+}
+
+void wrapped_text(const char* text, float width) {
+    const float room = width > 0.0f ? width : std::max(ImGui::GetContentRegionAvail().x, 1.0f);
+    ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + room);
+    ImGui::TextUnformatted(text_in_lines(text, room).c_str());
+    ImGui::PopTextWrapPos();
+}
+
 void text_line(const char* text, ImU32 color) {
     ImGui::PushStyleColor(ImGuiCol_Text, color);
-    ImGui::TextWrapped("%s", text);
+    wrapped_text(text);
     ImGui::PopStyleColor();
 }
 

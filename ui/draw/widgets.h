@@ -51,6 +51,9 @@ struct SliderRange {
 /// Ctrl+click to type, right click for the default. True if the value changed.
 bool slider_row(const char* label, const char* tip, float* value, const SliderRange& range);
 
+/// The next item goes on in this row if `width` is left there.
+void same_line_for(float width);
+
 bool toggle_row(const char* label, const char* tip, bool* value);
 
 /// Typed numbers; a change takes effect when the field is left or Enter is pressed. Exact up to 2^24.
@@ -100,9 +103,13 @@ bool wide_button(const char* label, const char* tip);
 /// A section of the panel that can be folded.
 bool section(const char* title, bool open_at_first);
 
-/// Text that breaks lines.
+/// The text in lines of the present font, see broken_at_spaces().
+std::string text_in_lines(std::string_view text, float width);
+/// Text that breaks lines, in the present color. Without a width it fills the rest of the row.
+void wrapped_text(const char* text, float width = 0.0f);
+/// The same in a color.
 void text_line(const char* text, ImU32 color);
-/// The same in the faint color.
+/// In the faint color.
 void faint_text(const char* text);
 
 }  // namespace pl::ui

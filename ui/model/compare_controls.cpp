@@ -13,7 +13,7 @@ void CompareControls::update() {
     const auto labels = labels_in_turns();
     const auto runs = link_.worker().runs();
     accuracy_.update(runs, link_.status().picture, reference != nullptr ? reference->noise_relmse : 0.0,
-                     labels ? base_of_turns(runs->runs, *labels) : std::nullopt);
+                     labels ? base_of_turns(runs->runs, *labels) : std::nullopt, in_turns());
     // In turns each side tells its passes when the other one takes over.
     accuracy_.set_passes(link_.turns() ? 0 : link_.status().passes);
 }
@@ -102,6 +102,15 @@ std::optional<std::array<RunLabel, 2>> CompareControls::labels_in_turns() const 
     if (!link_.turns()) return std::nullopt;
     const TurnSides& turns = *link_.turns();
     return std::array{now(), label_of(turns.methods[1], turns.second ? *turns.second : render_.settings())};
+}
+
+std::optional<TurnsHeadline> CompareControls::headline() const {
+    const auto labels = labels_in_turns();
+    if (!labels) return std::nullopt;
+    const auto& turns = link_.status().turns;
+    std::optional<std::size_t> late;
+    if (turns && turns->catching_up) late = turns->seconds[0] < turns->seconds[1] ? 0 : 1;
+    return turns_headline(accuracy_.table(), *labels, late);
 }
 
 /// Of a run that renders the picture in the window.

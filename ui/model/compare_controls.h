@@ -42,6 +42,8 @@ public:
     void set_turns(bool on);
     /// In turns the labels of both runs; the first is now().
     std::optional<std::array<RunLabel, 2>> labels_in_turns() const;
+    /// In turns both runs in words.
+    std::optional<TurnsHeadline> headline() const;
     /// The label of the present run, whose learned field the window shows.
     RunLabel now() const { return label_of(render_.method(), render_.settings()); }
 

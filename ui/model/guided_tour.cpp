@@ -83,6 +83,7 @@ void GuidedTour::prepare(ViewerModel& model) {
     RenderControls& render = model.render();
     render.set_paused(false);
     render.set_view(View::Beauty);
+    model.display().set_exposure(0.0f);
     render.set_next_event(false);
     render.set_method(learning_method());
     render.forget();
@@ -97,6 +98,7 @@ void GuidedTour::start_step(const ViewerModel& model) {
     before_ = {.split = model.comparison().state().split,
                .knobs = model.scene().shown().knobs,
                .camera = model.camera().camera()};
+    knobs_ = before_.knobs;
     done_since_ = -1.0;
     is_seen_ = false;
 }
@@ -150,7 +152,12 @@ void GuidedTour::update(ViewerModel& model, double seconds) {
         leave();
         return;
     }
-    if (forgets_ && !model.camera().is_moving() && is_at_rest(model)) {
+    if (step_ == kKnob && model.scene().shown().knobs != knobs_) {
+        knobs_ = model.scene().shown().knobs;
+        forgets_ = true;
+    }
+    const bool is_moved = model.camera().is_moving() || model.window().is_dragging;
+    if (forgets_ && !is_moved && is_at_rest(model)) {
         model.render().forget();
         forgets_ = false;
     }
@@ -176,8 +183,8 @@ std::string lesson_text(const ViewerModel& model) {
 std::string seen_text(const ViewerModel& model, int step) {
     if (step == kPays) return lesson_text(model);
     if (step != kSplit) return kSteps[static_cast<std::size_t>(step)].seen;
-    const auto halves = model.comparison().labels_in_turns();
-    return halves ? turns_headline(model.comparison().accuracy().table(), *halves).text : lesson_text(model);
+    const auto headline = model.comparison().headline();
+    return headline ? headline->text : lesson_text(model);
 }
 
 std::string state_text(const GuidedTour& tour) {

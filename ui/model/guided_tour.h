@@ -76,6 +76,7 @@ private:
     int step_ = 0;
     bool is_answered_ = false;
     Before before_;
+    KnobValues knobs_{};        ///< at which the field began last
     double done_since_ = -1.0;  ///< negative: not done
     bool is_seen_ = false;
     bool forgets_ = false;  ///< as soon as the picture has its full size: coarse passes train the field on no clock

@@ -87,6 +87,8 @@ public:
     /// Takes the render thread's answer; once per frame of the window.
     void update();
 
+    /// A click has not been answered yet.
+    bool awaits_pick() const { return awaits_pick_; }
     const std::optional<PickedPoint>& picked() const { return picked_; }
     /// kNoVolume if none is selected.
     std::int32_t volume() const { return volume_; }

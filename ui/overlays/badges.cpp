@@ -28,6 +28,7 @@ public:
         const float width = size.x + 2.0f * pad.x;
         const float height = size.y + 2.0f * pad.y;
         if (corner_.x + width > right_ && corner_.x > left_) corner_ = {left_, corner_.y + height + em(0.3f)};
+        if (corner_.y + height > gui_memory().low_card_start) return;  // no room above the card
         list_.AddRectFilled(corner_, {corner_.x + width, corner_.y + height}, colors::kBadge, em(0.2f));
         list_.AddText({corner_.x + pad.x, corner_.y + pad.y}, color, text.c_str());
         corner_.x += width + em(0.35f);
@@ -160,14 +161,7 @@ void add_field_badge(BadgeRow& row, const ViewerModel& model) {
     if (!is_shown || model.comparison().state().mode == CompareMode::Off) return;
     const RunLabel run = model.comparison().now();
     row.add("lobes and volumes: " + name_of(run),
-            to_imgui_color(run_color(model.comparison().accuracy().runs(), run)));
-}
-
-void add_turns_badge(BadgeRow& row, const ViewerModel& model) {
-    const auto halves = model.comparison().labels_in_turns();
-    const auto& turns = model.status().turns;
-    if (halves && turns && turns->catching_up)
-        row.add(name_of((*halves)[turns->seconds[0] < turns->seconds[1] ? 0 : 1]) + " catches up", colors::kWarning);
+            to_text_color(run_color(model.comparison().accuracy().runs(), run)));
 }
 
 void add_reference_badge(BadgeRow& row, const ViewerModel& model) {
@@ -208,7 +202,7 @@ void add_gain_badges(BadgeRow& row, const GainMarks& marks) {
         row.add("gain marks: " + (marks.reason().empty() ? "measuring" : marks.reason()), colors::kWarning);
         return;
     }
-    const auto color = [](Verdict verdict) { return to_imgui_color(mark_color(verdict)); };
+    const auto color = [](Verdict verdict) { return to_text_color(mark_color(verdict)); };
     for (const Verdict verdict :
          {Verdict::Faster, Verdict::Slower, Verdict::NoDifference, Verdict::Undecided, Verdict::Unresolved}) {
         const auto count =
@@ -264,7 +258,6 @@ void draw_badges(ViewerModel& model, const Layout& layout, const ComparePlan& pl
                 colors::kWarning);
     add_compare_badges(row, model, plan);
     const WorkerStatus& status = model.status();
-    add_turns_badge(row, model);
     add_reference_badge(row, model);
     if (plan.tiles.empty()) add_diagnostics_badges(row, model);
     add_gain_badges(row, model.gain_marks());
@@ -294,13 +287,14 @@ ImU32 stripe_of(MessageLevel level) {
 float draw_toast(ImDrawList& list, ImVec2 corner, float max_width, MessageLevel level, const std::string& text) {
     const ImVec2 pad{em(0.7f), em(0.5f)};
     const float wrap = max_width - 2.0f * pad.x;
-    const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, wrap);
+    const std::string lines = text_in_lines(text, wrap);
+    const ImVec2 size = ImGui::CalcTextSize(lines.c_str(), nullptr, false, wrap);
     const float height = size.y + 2.0f * pad.y;
     const ImVec2 low{corner.x, corner.y - height};
     const ImVec2 high{corner.x + size.x + 2.0f * pad.x, corner.y};
     list.AddRectFilled(low, high, ImGui::GetColorU32(ImGuiCol_PopupBg, 0.94f), em(0.2f));
     list.AddRectFilled(low, {low.x + em(0.25f), high.y}, stripe_of(level));
-    list.AddText(ImGui::GetFont(), ImGui::GetFontSize(), {low.x + pad.x, low.y + pad.y}, colors::kText, text.c_str(),
+    list.AddText(ImGui::GetFont(), ImGui::GetFontSize(), {low.x + pad.x, low.y + pad.y}, colors::kText, lines.c_str(),
                  nullptr, wrap);
     return height;
 }

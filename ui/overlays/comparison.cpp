@@ -56,7 +56,7 @@ void draw_label(ImDrawList& list, const CompareTile& tile) {
     list.PushClipRect({part.x, part.y}, {part.x + part.width, part.y + part.height}, true);
     list.AddRectFilled({place.x, place.y}, {place.x + place.width, place.y + place.height}, colors::kBadge, em(0.2f));
     list.AddText(ImGui::GetFont(), ImGui::GetFontSize(), {place.x + pad.x, place.y + pad.y},
-                 to_imgui_color(tile.color), label_lines(tile).c_str(), nullptr, label_wrap(tile));
+                 to_text_color(tile.color), label_lines(tile).c_str(), nullptr, label_wrap(tile));
     list.PopClipRect();
 }
 

@@ -45,7 +45,7 @@ void draw_line(const char* keys, const char* text) {
     ImGui::SetCursorScreenPos({corner.x + 0.5f * (width - ImGui::CalcTextSize(keys).x), corner.y});
     ImGui::TextColored(to_vec4(colors::kAccent), "%s", keys);
     ImGui::SameLine(em(kKeysEm));
-    ImGui::TextWrapped("%s", text);
+    wrapped_text(text);
     note_place(text);
 }
 

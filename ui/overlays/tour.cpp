@@ -44,14 +44,17 @@ void large_text(const std::string& text, ImU32 color) {
     ImGui::PopFont();
 }
 
-/// Two runs in turns, in one sentence that is true now.
-void draw_headline(const ViewerModel& model, const std::array<RunLabel, 2>& halves) {
+/// Two runs in turns, in one sentence that is true now. Where there is little room it is all, in smaller type.
+void draw_headline(const ViewerModel& model, const TurnsHeadline& headline) {
     const bool next_event = model.render().settings().next_event;
-    const AccuracyModel& accuracy = model.comparison().accuracy();
-    const TurnsHeadline headline = turns_headline(accuracy.table(), halves);
-    const bool is_old = headline.row != nullptr && accuracy.is_old(*headline.row);
-    large_text(headline.text, is_old ? colors::kFaint : colors::kText);
-    const std::string about = headline.detail.empty() ? "" : headline.detail + " ";
+    const bool is_old = headline.row != nullptr && model.comparison().accuracy().is_old(*headline.row);
+    const bool is_narrow = ImGui::GetContentRegionAvail().x < em(24.0f);
+    const ImU32 color = is_old ? colors::kFaint : colors::kText;
+    if (is_narrow)
+        text_line(headline.text.c_str(), color);
+    else
+        large_text(headline.text, color);
+    const std::string about = headline.detail.empty() || is_narrow ? "" : headline.detail + " ";
     faint_text(fmt::format("{}{}: {} turns them {}.", about,
                            next_event ? "With light samples" : "Without light samples",
                            info_of(ActionId::NextEvent).keys, next_event ? "off" : "on")
@@ -116,11 +119,12 @@ void begin_card(const char* name, const Rect& view, float y, bool is_lower_edge,
                      ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoFocusOnAppearing | flags);
 }
 
-/// Below compared pictures that leave room there, else above their names.
+/// Below compared pictures that leave room there, else above their names, as far as the card stays below the menus.
 float low_card_edge(const Rect& view, const ComparePlan& plan) {
-    const float end = view.y + view.height;
-    const bool has_room = !plan.tiles.empty() && plan.tiles[0].clip.y + plan.tiles[0].clip.height + em(8.0f) < end;
-    return (has_room ? end : std::min(end, top_of_names(plan))) - em(0.6f);
+    const float height = gui_memory().low_card_height;
+    const float end = view.y + view.height - em(0.6f);
+    const bool has_room = !plan.tiles.empty() && plan.tiles[0].clip.y + plan.tiles[0].clip.height + height < end;
+    return has_room ? end : std::min(end, std::max(top_of_names(plan) - em(0.6f), view.y + height));
 }
 
 /// Ends the window, and returns its place.
@@ -145,9 +149,11 @@ void draw_tour(ViewerModel& model, const Layout& layout, const Rect& image, cons
         // Without buttons clicks go through it to the picture.
         begin_card("headline", view, low_card_edge(view, plan), true,
                    phase == Phase::Off ? ImGuiWindowFlags_NoInputs : 0);
-        if (const auto halves = model.comparison().labels_in_turns()) draw_headline(model, *halves);
+        if (const auto headline = model.comparison().headline()) draw_headline(model, *headline);
         if (phase == Phase::Offered) draw_offer(model);
-        memory.low_card_start = end_card("headline").y;
+        const Rect card = end_card("headline");
+        memory.low_card_start = card.y;
+        memory.low_card_height = card.height;
         return;
     }
     if (phase == Phase::Running && !model.has_dialog()) {

@@ -14,11 +14,14 @@ namespace pl::ui {
 namespace {
 
 constexpr float kPlotEm = 18.0f;
-constexpr float kSmallestPlotEm = 15.0f;  ///< 240 pixels of the design size
+constexpr float kSmallestPlotEm = 12.0f;
 
 void draw_metric_choice(AccuracyModel& model, PictureFiles& files) {
-    ImGui::SetNextItemWidth(std::max(ImGui::GetContentRegionAvail().x - em(13.5f), em(4.0f)));
-    if (ImGui::BeginCombo("##metric", info_of(model.wanted_metric()).label)) {
+    const float width = std::max(ImGui::GetContentRegionAvail().x - em(13.5f), em(4.0f));
+    const bool is_narrow = width < em(6.0f);  // no arrow beside the longest name
+    ImGui::SetNextItemWidth(width);
+    if (ImGui::BeginCombo("##metric", info_of(model.wanted_metric()).label,
+                          is_narrow ? ImGuiComboFlags_NoArrowButton : 0)) {
         for (int i = 0; i < kErrorMetricCount; ++i) {
             const auto metric = static_cast<ErrorMetric>(i);
             if (ImGui::Selectable(info_of(metric).label, metric == model.wanted_metric())) model.set_metric(metric);
@@ -61,7 +64,7 @@ void draw_row(const CursorRow& row, const AccuracyModel& model) {
     const auto run = find_run(model.runs(), row.run);
     if (!run) return;
     ImGui::TableNextRow();
-    text_cell(name_of(run->label), to_imgui_color(run_color(model.runs(), run->label)));
+    text_cell(name_of(run->label), to_text_color(run_color(model.runs(), run->label)));
     const bool at_error = model.cursor().kind == Cursor::Kind::EqualError;
     const std::optional<double>& shown = at_error ? row.cost : row.error;
     if (!shown)
@@ -202,7 +205,7 @@ void draw_accuracy_panel(ViewerModel& model, const Layout& layout) {
         model.comparison().set_cursor(accuracy.cursor());
     window.plot.has_wheel = ImGui::IsItemHovered();
     draw_cursor_table(accuracy);
-    draw_other_runs(accuracy);
+    draw_older_runs(accuracy);
     draw_comparison(model);
     draw_reference(model);
     draw_footing(accuracy);

@@ -107,7 +107,11 @@ class StatusLine {
 public:
     /// True if it was clicked.
     bool add(const std::string& text, const char* tip, ImU32 color = colors::kText) {
+        if (is_full_) return false;
         if (!first_) {
+            const float needed = ImGui::CalcTextSize(text.c_str()).x + em(1.6f);
+            is_full_ = ImGui::GetItemRectMax().x + needed > ImGui::GetWindowPos().x + ImGui::GetWindowWidth();
+            if (is_full_) return false;
             ImGui::SameLine(0.0f, em(0.5f));
             ImGui::TextDisabled("|");
             ImGui::SameLine(0.0f, em(0.5f));
@@ -131,8 +135,11 @@ public:
         return is_clicked;
     }
 
+    bool is_full() const { return is_full_; }
+
 private:
     bool first_ = true;
+    bool is_full_ = false;  ///< what has no room is left out: nothing is cut
 };
 
 void draw_counts(StatusLine& line, const ViewerModel& model) {
@@ -177,7 +184,7 @@ void draw_pointed(StatusLine& line, ViewerModel& model) {
     if (const auto& value = pointed->value)
         text += fmt::format(":  {}  {}  {}", short_value(value->x), short_value(value->y), short_value(value->z));
     line.add(text, "Pixel under the pointer, from the top left, and its linear red, green and blue.");
-    note_place("pointed pixel");
+    if (!line.is_full()) note_place("pointed pixel");
 }
 
 std::string samples_text(const ViewerModel& model) {

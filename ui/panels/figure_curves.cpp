@@ -148,7 +148,7 @@ void draw_memory(LearningTime& time) {
 }
 
 void draw_figures(const std::vector<FigurePoint>& curve, std::uint64_t shown) {
-    std::vector<NamedCurve> divergences{{"KL of table", kTableColor, {}}, {"KL of paths", kPathsColor, {}}};
+    std::vector<NamedCurve> divergences{{"field off by", kTableColor, {}}, {"paths off by", kPathsColor, {}}};
     std::vector<NamedCurve> variance{{"variance over that of the BSDF", kVarianceColor, {}}};
     for (const FigurePoint& point : curve) {
         divergences[0].points.push_back(point_of(point.passes, point.figures.table));

@@ -131,7 +131,7 @@ void draw_log_tab(const ViewerModel& model) {
         ImGui::TextDisabled("%7.2f", line.seconds);
         ImGui::SameLine();
         ImGui::PushStyleColor(ImGuiCol_Text, color_of(line.level));
-        ImGui::TextWrapped("%s", line.text.c_str());
+        wrapped_text(line.text.c_str());
         ImGui::PopStyleColor();
     }
     if (ImGui::GetScrollY() >= ImGui::GetScrollMaxY()) ImGui::SetScrollHereY(1.0f);

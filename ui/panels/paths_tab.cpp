@@ -257,7 +257,7 @@ void draw_pixel_gain(const diagnose::PixelNoise& noise) {
         return;
     }
     text_line(fmt::format("{} {} in this pixel", name, mark_name(verdict_of(noise.gain->net))).c_str(),
-              to_imgui_color(mark_color(verdict_of(noise.gain->net))));
+              to_text_color(mark_color(verdict_of(noise.gain->net))));
     tooltip("Time to the same noise in this pixel: variance times time of a path, default's over the method's, with "
             "its 95 % interval. "
             "Both are measured here, by paths in turns.");

@@ -25,11 +25,12 @@ std::string interval_text(const Interval& interval) {
 
 void draw_figures(const LightReport& report) {
     const GuidingFigures& figures = report.figures;
-    text_row("KL of table", interval_text(figures.table),
-             "Kullback-Leibler divergence of the learned probabilities from those of the true light, in nats; 95 % "
-             "interval.");
     text_row(
-        "KL of paths", interval_text(figures.mixture),
+        "Field off by", interval_text(figures.table),
+        "Kullback-Leibler divergence of the learned probabilities from those of the true light, in nats: 0 if they "
+        "agree; 95 % interval.");
+    text_row(
+        "Paths off by", interval_text(figures.mixture),
         "The same of the mixture of BSDF and field that guided paths sample, from the true light times the BSDF.");
     text_row("Variance", figures.variance_factor ? interval_text(*figures.variance_factor) : "none by the BSDF",
              "Of one direction sampled by that mixture, over the variance of BSDF sampling. Below 1, guiding helps "
@@ -52,7 +53,7 @@ void draw_truth(const Selection& selection, const GuidingStatus* guiding) {
     text_row("True light",
              fmt::format("{} paths per cell, {}", report.paths_per_cell, short_seconds(light.seconds())),
              "By paths of default from the volume, on a thread of low priority. Its time is on no other clock.");
-    text_row("Part", std::string(label_of(report.target)),
+    text_row("Light", std::string(label_of(report.target)),
              "The light that the method learns. With light samples and learn-from indirect, light that light "
              "samples find is left to them by multiple importance sampling, as the densities now are.");
     draw_figures(report);
@@ -122,7 +123,7 @@ void draw_volume_tab(ViewerModel& model) {
         model.selection().toggle_pin();
     note_place("pin");
     tooltip("K: keeps the volume in view beside others, up to four, on the same scale.");
-    ImGui::SameLine();
+    same_line_for(em(6.0f));
     ImGui::Checkbox("true light", &model.window().cell_display.truth);
     tooltip("The light that reaches the volume, beside the learned one.");
     const VolumeInspection* volume = model.selection().inspection();

@@ -19,12 +19,13 @@ bool is_measured(RunList runs, std::uint64_t picture, ErrorMetric metric) {
 }  // namespace
 
 void AccuracyModel::update(std::shared_ptr<const LiveRunSet> runs, std::uint64_t picture, double floor,
-                           const RunBase& base) {
-    if (runs == runs_ && picture == picture_ && floor == floor_ && base == base_) return;
+                           const RunBase& base, bool in_turns) {
+    if (runs == runs_ && picture == picture_ && floor == floor_ && base == base_ && in_turns == in_turns_) return;
     runs_ = std::move(runs);
     picture_ = picture;
     floor_ = floor;
     base_ = base;
+    in_turns_ = in_turns;
     recompute();
 }
 
@@ -100,7 +101,7 @@ void AccuracyModel::recompute() {
     if (!is_measured(runs(), picture_, kind_.metric)) kind_.metric = ErrorMetric::Noise;
     if (kind_.metric != before && cursor_.kind == Cursor::Kind::EqualError) cursor_ = {};
     make_lines();
-    table_ = make_run_table(runs(), picture_, base_);
+    table_ = make_run_table(runs(), picture_, base_, in_turns_);
     rows_ = cursor_rows(runs(), picture_, kind_, cursor_, base_);
     if (view_kept_)
         keep_view();  // of another picture the curves may lie elsewhere
@@ -110,18 +111,14 @@ void AccuracyModel::recompute() {
 
 void AccuracyModel::make_lines() {
     lines_.clear();
-    auto others = static_cast<std::size_t>(
-        std::ranges::count_if(runs(), [&](const auto& run) { return run->label.picture != picture_; }));
     for (const auto& run : runs()) {
         const RunLabel& label = run->label;
-        const bool comparable = label.picture == picture_;
-        if (!comparable && others-- > kOtherLines) continue;
+        if (label.picture != picture_) continue;
         lines_.push_back({.run = run->number,
                           .name = name_of(label),
                           .color = run_color(runs(), label),
                           .is_dashed = is_dashed(label),
                           .marker = marker_of(label),
-                          .comparable = comparable,
                           .hidden = hidden_.count(run->number) > 0,
                           .in_progress = run->in_progress,
                           .points = plot_points(*run, kind_)});

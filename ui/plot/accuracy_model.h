@@ -19,8 +19,8 @@ public:
 
     /// Takes the newest runs. `picture`: of the window (RunLabel::picture), `floor` the noise of its reference as
     /// relMSE, 0 without one.
-    void update(std::shared_ptr<const LiveRunSet> runs, std::uint64_t picture, double floor,
-                const RunBase& base = {});
+    void update(std::shared_ptr<const LiveRunSet> runs, std::uint64_t picture, double floor, const RunBase& base = {},
+                bool in_turns = false);
 
     /// Passes of the picture of the run in progress, which its points may not have yet. Once per frame of the window.
     void set_passes(std::uint32_t passes) { passes_ = passes; }
@@ -44,9 +44,8 @@ public:
     void set_cursor(const Cursor& cursor);
     void toggle_hidden(std::uint64_t run);
 
-    /// All runs of this picture, and the newest of others.
+    /// All runs of this picture.
     const std::vector<PlotLine>& lines() const { return lines_; }
-    static constexpr std::size_t kOtherLines = 6;
     const RunTable& table() const { return table_; }
     const std::vector<CursorRow>& rows() const { return rows_; }
     /// Noise of the reference in the plotted metric: smaller errors are not significant. 0 if unknown.
@@ -69,6 +68,7 @@ private:
     std::uint64_t picture_ = 0;
     double floor_ = 0.0;
     RunBase base_;
+    bool in_turns_ = false;
     std::uint32_t passes_ = 0;
     CurveKind wanted_;
     CurveKind kind_;

@@ -40,13 +40,15 @@ constexpr RunColumn kStart{"start", "Warm: began with a learned field, whose cos
                            start_text};
 
 /// Those that tell the runs apart, or that every reader needs.
-std::vector<RunColumn> columns_for(const std::vector<RunRow>& rows) {
+std::vector<RunColumn> columns_for(const std::vector<RunRow>& rows, float width) {
     std::vector<RunColumn> columns;
     if (std::ranges::any_of(rows, [](const RunRow& row) { return row.label.backend != "cpu"; }))
         columns.push_back(kBackEnd);
     columns.push_back({"light", "Light samples (key L): at each vertex a point on a light is sampled.", light_text});
     if (std::ranges::any_of(rows, [](const RunRow& row) { return row.label.warm; })) columns.push_back(kStart);
     columns.push_back({"spp", "Samples per pixel so far.", samples_text});
+    constexpr float kLeastEm = 21.0f;
+    if (width < em(kLeastEm)) return columns;  // the gain matters more
     columns.push_back(
         {"a sample", "Charged time for each sample per pixel of the whole picture, set-up included.", cost_text});
     return columns;
@@ -126,7 +128,7 @@ bool has_row(const AccuracyModel& model, std::uint64_t run) {
 
 void draw_run_table(AccuracyModel& model) {
     const RunTable& table = model.table();
-    const std::vector<RunColumn> columns = columns_for(table.rows);
+    const std::vector<RunColumn> columns = columns_for(table.rows, ImGui::GetContentRegionAvail().x);
     std::uint64_t clicked = 0;
     ImGui::PushStyleVar(ImGuiStyleVar_CellPadding, {em(0.22f), 0.0f});
     if (!table.rows.empty() &&
@@ -158,13 +160,10 @@ void draw_run_table(AccuracyModel& model) {
     if (clicked != 0) model.toggle_hidden(clicked);
 }
 
-void draw_other_runs(AccuracyModel& model) {
+void draw_older_runs(AccuracyModel& model) {
     const std::size_t older = model.table().older.size();
-    const auto others = std::ranges::count_if(model.lines(), [](const PlotLine& line) { return !line.comparable; });
-    if (older == 0 && others == 0) return;
-    std::string title = older > 0 ? fmt::format("{} older run{}", older, older == 1 ? "" : "s") : "";
-    if (others > 0) title += fmt::format("{}{} of other pictures", title.empty() ? "" : ", ", others);
-    if (!section((title + "###other runs").c_str(), false)) return;
+    if (older == 0) return;
+    if (!section(fmt::format("{} older run{}###older runs", older, older == 1 ? "" : "s").c_str(), false)) return;
     draw_legend(model, [&](const PlotLine& line) { return !has_row(model, line.run); });
 }
 

@@ -9,7 +9,7 @@ namespace pl::ui {
 /// all runs are on the CPU, or cold, are left out. Below, the table's note.
 void draw_run_table(AccuracyModel& model);
 
-/// Runs without a row: older runs and runs of other pictures, folded away at first. Nothing without any.
-void draw_other_runs(AccuracyModel& model);
+/// Older runs of the picture, which have no row, folded away at first. Nothing without any.
+void draw_older_runs(AccuracyModel& model);
 
 }  // namespace pl::ui

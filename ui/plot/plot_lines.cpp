@@ -52,11 +52,9 @@ std::vector<LinePoint> thin_out(std::vector<LinePoint> points, std::size_t most)
 }
 
 PlotRange fit_range(std::span<const PlotLine> lines) {
-    const bool any = std::ranges::any_of(
-        lines, [](const PlotLine& line) { return line.comparable && !line.hidden && !line.points.empty(); });
     std::vector<PlotValue> values;
     for (const PlotLine& line : lines)
-        if (!line.hidden && (line.comparable || !any))
+        if (!line.hidden)
             for (const LinePoint& point : line.points) values.push_back(point.value);
     return fit_range(values);
 }

@@ -23,7 +23,6 @@ struct PlotLine {
     std::uint32_t color = 0;  ///< opaque ARGB
     bool is_dashed = false;
     PlotMarker marker;
-    bool comparable = true;  ///< of the picture in the window; others are gray
     bool hidden = false;
     bool in_progress = false;
     std::vector<LinePoint> points;
@@ -37,7 +36,7 @@ inline constexpr std::size_t kMostPoints = 500;
 std::vector<LinePoint> plot_points(const LiveRun& run, const CurveKind& kind);
 std::vector<LinePoint> thin_out(std::vector<LinePoint> points, std::size_t most);
 
-/// Range of all comparable lines that are not hidden; of all lines that are not hidden if none is comparable.
+/// Range of all lines that are not hidden.
 PlotRange fit_range(std::span<const PlotLine> lines);
 
 struct PlotHit {

@@ -14,7 +14,7 @@ namespace {
 constexpr ImU32 kFloor = IM_COL32(110, 114, 122, 70);
 constexpr std::uint32_t kBandAlpha = 56;
 constexpr float kPlotRightEm = 0.6f;          ///< right of the curves, for half of a number
-constexpr std::uint32_t kGray = 0xff5d636eu;  ///< of runs of other pictures
+constexpr std::uint32_t kGray = 0xff5d636eu;  ///< of hidden runs
 
 ImVec2 to_imgui(Vec2f v) { return {v.x, v.y}; }
 
@@ -59,7 +59,7 @@ void draw_triangle(ImDrawList& list, const PlotView& view, const Rect& frame, do
     const Vec2f top = view.to_window({low.x, low.y * std::pow(10.0, -slope * run)}, frame);
     const Vec2f right = view.to_window({low.x * std::pow(10.0, run), low.y}, frame);
     list.AddTriangle(to_imgui(corner), to_imgui(top), to_imgui(right), colors::kFaint);
-    list.AddText({corner.x, corner.y + em(0.2f)}, colors::kFaint, fmt::format("slope {:g}", slope).c_str());
+    list.AddText({corner.x, corner.y + em(0.2f)}, colors::kFaint, "as noise falls");
 }
 
 void draw_polyline(ImDrawList& list, std::span<const Vec2f> points, ImU32 color, bool is_dashed, float width) {
@@ -134,19 +134,17 @@ void draw_axes(ImDrawList& list, const PlotView& view, const Rect& frame, const 
 void draw_lines(ImDrawList& list, std::span<const PlotLine> lines, const PlotView& view, const Rect& frame) {
     list.PushClipRect({frame.x, frame.y}, {frame.x + frame.width, frame.y + frame.height}, true);
     std::vector<Vec2f> points;
-    for (const bool comparable : {false, true})  // gray ones below
-        for (const PlotLine& line : lines) {
-            if (line.hidden || line.comparable != comparable) continue;
-            points.clear();
-            for (const LinePoint& point : line.points) points.push_back(view.to_window(point.value, frame));
-            const ImU32 color = to_imgui_color(comparable ? line.color : kGray);
-            // Only of the run in progress: several bands would hide each other.
-            if (line.in_progress && comparable)
-                draw_band(list, line.points, view, frame,
-                          to_imgui_color((line.color & 0xffffffu) | kBandAlpha << 24));
-            draw_polyline(list, points, color, line.is_dashed, line.in_progress ? 2.5f : 1.5f);
-            for (const Vec2f& point : points) draw_marker(list, point, color, line.marker);
-        }
+    for (const PlotLine& line : lines) {
+        if (line.hidden) continue;
+        points.clear();
+        for (const LinePoint& point : line.points) points.push_back(view.to_window(point.value, frame));
+        const ImU32 color = to_imgui_color(line.color);
+        // Only of the run in progress: several bands would hide each other.
+        if (line.in_progress)
+            draw_band(list, line.points, view, frame, to_imgui_color((line.color & 0xffffffu) | kBandAlpha << 24));
+        draw_polyline(list, points, color, line.is_dashed, line.in_progress ? 2.5f : 1.5f);
+        for (const Vec2f& point : points) draw_marker(list, point, color, line.marker);
+    }
     list.PopClipRect();
 }
 
@@ -171,7 +169,7 @@ void draw_cursor_line(ImDrawList& list, const Rect& frame, const PlotView& view,
 }
 
 void draw_sample(ImDrawList& list, const PlotLine& line, ImVec2 left, float width) {
-    const ImU32 color = to_imgui_color(line.hidden || !line.comparable ? kGray : line.color);
+    const ImU32 color = to_imgui_color(line.hidden ? kGray : line.color);
     const std::array<Vec2f, 2> ends{Vec2f{left.x, left.y}, Vec2f{left.x + width, left.y}};
     draw_polyline(list, ends, color, line.is_dashed, 2.0f);
     draw_marker(list, 0.5f * (ends[0] + ends[1]), color, line.marker);
@@ -184,10 +182,10 @@ constexpr float kHoverPixels = 14.0f;
 PlotStyle style_of(const AccuracyModel& model) {
     const ErrorMetricInfo& metric = info_of(model.kind().metric);
     PlotStyle style{.x_title = model.kind().axis == CostAxis::Seconds ? "seconds charged" : "samples per pixel",
-                    .y_title = metric.label,
+                    .y_title = fmt::format("error ({})", metric.label),
                     .slope = metric.slope,
                     .floor = model.floor()};
-    if (model.wanted_metric() != model.kind().metric) style.y_title = "own noise, without a reference";
+    if (model.wanted_metric() != model.kind().metric) style.y_title = "error, by its own noise";
     return style;
 }
 
@@ -258,7 +256,7 @@ void draw_hover(const AccuracyModel& model, ImDrawList& list, const Rect& frame)
         if (other.value.x <= point.value.x) until.push_back({other.value.x, other.value.y});
     const double slope = log_slope(until);
     begin_tooltip();
-    ImGui::TextColored(to_vec4(to_imgui_color(line.color)), "%s", line.name.c_str());
+    ImGui::TextColored(to_vec4(to_text_color(line.color)), "%s", line.name.c_str());
     ImGui::TextUnformatted(
         fmt::format("{}   {} spp", short_seconds(charged_seconds(measured.clocks)), measured.spp).c_str());
     ImGui::TextUnformatted(fmt::format("{} {:.4g}", info_of(model.kind().metric).label, point.value.y).c_str());
@@ -267,7 +265,6 @@ void draw_hover(const AccuracyModel& model, ImDrawList& list, const Rect& frame)
     ImGui::TextUnformatted(std::isfinite(slope) ? fmt::format("slope {:.2f} over the last decade", slope).c_str()
                                                 : "slope: too few earlier points");
     if (measured.squared_bias) ImGui::TextUnformatted(bias_text(*measured.squared_bias).c_str());
-    if (!line.comparable) ImGui::TextUnformatted("another picture: not compared");
     if (measured.picture == nullptr) ImGui::TextUnformatted("its picture was dropped");
     end_tooltip();
 }
@@ -306,12 +303,11 @@ void draw_legend(AccuracyModel& model, const std::function<bool(const PlotLine&)
         ImGui::PushID(static_cast<int>(line.run));
         if (ImGui::InvisibleButton("run", {width, ImGui::GetTextLineHeight()})) clicked = line.run;
         ImGui::PopID();
-        tooltip(line.comparable ? "Click to hide or show."
-                                : "A run of another picture: not compared. Click to hide or show.");
+        tooltip("Click to hide or show.");
         ImDrawList& list = *ImGui::GetWindowDrawList();
         draw_sample(list, line, {at.x, at.y + 0.5f * ImGui::GetTextLineHeight()}, sample);
-        list.AddText({at.x + sample + em(0.4f), at.y},
-                     line.hidden || !line.comparable ? colors::kFaint : colors::kText, line.name.c_str());
+        list.AddText({at.x + sample + em(0.4f), at.y}, line.hidden ? colors::kFaint : colors::kText,
+                     line.name.c_str());
     }
     if (clicked != 0) model.toggle_hidden(clicked);
 }

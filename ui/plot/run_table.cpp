@@ -261,20 +261,22 @@ RunRow row_of(RunList runs, const LiveRun& run, const RunBase& wanted) {
 }
 
 /// The next step while no method with a field was measured. Nothing if one is being rendered: its row is about to come.
-std::string note_of(RunList runs, const std::vector<RunRow>& rows) {
+std::string note_of(RunList runs, const std::vector<RunRow>& rows, bool in_turns) {
     if (rows.empty()) return "Nothing measured yet: the plot begins with the second pass";
     const bool renders_base = std::ranges::any_of(rows, [&](const RunRow& row) {
         const auto run = find_run(runs, row.run);
         return row.is_base && run && run->in_progress;
     });
-    if (!renders_base || !std::ranges::all_of(rows, &RunRow::is_base)) return "";
+    if (!std::ranges::all_of(rows, &RunRow::is_base)) return "";
+    if (in_turns) return "The other run is measured from its second pass on";
+    if (!renders_base) return "";
     return fmt::format("Only {} so far: {} render with a learned field", info_of(baseline_method()).name,
                        method_keys(&MethodInfo::uses_field));
 }
 
 }  // namespace
 
-RunTable make_run_table(RunList runs, std::uint64_t picture, const RunBase& base) {
+RunTable make_run_table(RunList runs, std::uint64_t picture, const RunBase& base, bool in_turns) {
     std::vector<Run> kinds = newest_of_kinds(runs, picture);
     keep_newest(kinds, RunTable::kMostRows);
     RunTable table{.base = base, .rows = {}, .older = {}, .note = {}};
@@ -283,7 +285,7 @@ RunTable make_run_table(RunList runs, std::uint64_t picture, const RunBase& base
         const bool is_row = std::ranges::any_of(kinds, [&](const Run& kind) { return kind->number == run->number; });
         if (run->label.picture == picture && !is_row) table.older.push_back(run->number);
     }
-    table.note = note_of(runs, table.rows);
+    table.note = note_of(runs, table.rows, in_turns);
     return table;
 }
 
@@ -327,7 +329,11 @@ std::string ahead_text(const RunRow& row) {
     return "neither ahead nor behind";
 }
 
-TurnsHeadline turns_headline(const RunTable& table, const std::array<RunLabel, 2>& halves) {
+TurnsHeadline turns_headline(const RunTable& table, const std::array<RunLabel, 2>& halves,
+                             std::optional<std::size_t> late) {
+    if (late)
+        return {fmt::format("The {} half catches up, until both have had the same time.", *late == 0 ? "left" : "right"),
+                "", nullptr};
     const RunLabel& base = halves[base_side(halves)];
     const bool is_left = base_side(halves) == 1;
     const RunLabel& label = halves[is_left ? 0 : 1];
@@ -354,7 +360,7 @@ TurnsHeadline turns_headline(const RunTable& table, const std::array<RunLabel, 2
 std::string gain_text(const RunRow& row) {
     switch (row.missing) {
     case MissingGain::IsBase: return "baseline";
-    case MissingGain::TooFewSamples: return "too few samples";
+    case MissingGain::TooFewSamples: return "too short";
     case MissingGain::NoBase: return "no baseline";
     case MissingGain::None: break;
     }

@@ -67,7 +67,7 @@ struct RunTable {
 
 /// One row for each method, back end, use of light samples, start and further settings. Each is compared with
 /// base_of() it; a run that has just begun replaces no older one.
-RunTable make_run_table(RunList runs, std::uint64_t picture, const RunBase& base = {});
+RunTable make_run_table(RunList runs, std::uint64_t picture, const RunBase& base = {}, bool in_turns = false);
 
 /// Two runs in turns of equal time in words, as the table has measured them.
 struct TurnsHeadline {
@@ -75,8 +75,10 @@ struct TurnsHeadline {
     std::string detail;           ///< the number behind it with its interval; empty as long as nothing is measured
     const RunRow* row = nullptr;  ///< of the table: whose number it is
 };
-/// `halves`: the left and the right run. They have the base of the table.
-TurnsHeadline turns_headline(const RunTable& table, const std::array<RunLabel, 2>& halves);
+/// `halves`: the left and the right run. They have the base of the table. `late`: the half that works alone until both have had the same
+/// time.
+TurnsHeadline turns_headline(const RunTable& table, const std::array<RunLabel, 2>& halves,
+                             std::optional<std::size_t> late = std::nullopt);
 
 /// The newest row of the method that learns, with or without light samples, if it has a gain with an interval and began with nothing
 /// learned; else null.
@@ -84,7 +86,7 @@ const RunRow* learning_row(const RunTable& table, bool next_event);
 /// "4.5 times ahead", "1.3 times behind", "neither ahead nor behind": by such a row.
 std::string ahead_text(const RunRow& row);
 
-/// "1.7x", "0.58x", "no difference", "undecided", "1.7x, no interval", "baseline", "too few samples", "no baseline".
+/// "1.7x", "0.58x", "no difference", "undecided", "1.7x, no interval", "baseline", "too short", "no baseline".
 std::string gain_text(const RunRow& row);
 /// "1.5-1.9": the 95 % interval of the factor; empty without one.
 std::string interval_text(const RunRow& row);

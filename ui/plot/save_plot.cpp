@@ -16,7 +16,7 @@ std::string plot_svg(const AccuracyModel& model) {
               .x_shown = model.view().x_axis(),
               .y_shown = model.view().y_axis()};
     for (const PlotLine& line : model.lines()) {
-        if (!line.comparable || line.hidden || line.points.empty()) continue;
+        if (line.hidden || line.points.empty()) continue;
         PlotSeries series{
             .name = line.name, .color = line.color, .style = line.is_dashed ? 1 : 0, .line = {}, .band = {}};
         for (const LinePoint& point : line.points) {

@@ -9,7 +9,7 @@
 // (1, 1) its bottom right one. `aim_plot` points at the curves of the accuracy panel in the same way, and beyond (1, 1)
 // at the numbers of its axes. `aim_at` points at the control with this label: also a tab or a button. OP is one of
 // == != < <= > >= ~ (contains). `monkey` plays random input. The frame count stands still while a script waits, and meanwhile.
-// A wait that has not come true after N further passes of any picture, 100000 unless given otherwise, ends the script as a failed
+// A wait that has not come true after N further passes of any picture, 20000 unless given otherwise, ends the script as a failed
 // expectation does. Passes, not seconds: no verdict depends on the speed of the machine.
 #pragma once
 
@@ -33,7 +33,7 @@ struct ScriptCondition {
 bool holds(const ScriptCondition& condition, const std::string& actual);
 
 struct ScriptCommand {
-    static constexpr std::uint64_t kMostPasses = 100000;
+    static constexpr std::uint64_t kMostPasses = 20000;
 
     enum class Kind {
         Move,

@@ -79,19 +79,21 @@ std::string headline_text(const ViewerModel& model) {
     return text;
 }
 
-/// Of the tooltip "beside" the panel under the pointer, or "over" it; "none".
+/// Of the tooltip "beside" the panel under the pointer and the card of the tour, or "over" one of them; "none".
 std::string tooltip_place(const ViewerModel&) {
     const auto& places = gui_memory().places;
     const auto tooltip = places.find("tooltip");
     if (tooltip == places.end()) return "none";
     const ImVec2 pointer = ImGui::GetIO().MousePos;
-    for (const char* const name : {"settings", "knowledge", "accuracy"}) {
-        const auto panel = places.find(name);
-        if (panel == places.end() || !panel->second.contains({pointer.x, pointer.y})) continue;
-        const Rect common = common_part(panel->second, tooltip->second);
-        return common.width > 0.0f && common.height > 0.0f ? "over" : "beside";
-    }
-    return "beside";
+    const auto is_covered = [&](const char* name, bool is_pointed) {
+        const auto part = places.find(name);
+        if (part == places.end() || (is_pointed && !part->second.contains({pointer.x, pointer.y}))) return false;
+        const Rect common = common_part(part->second, tooltip->second);
+        return common.width > 0.0f && common.height > 0.0f;
+    };
+    const bool is_over = is_covered("tour", false) || is_covered("settings", true) || is_covered("knowledge", true) ||
+                         is_covered("accuracy", true);
+    return is_over ? "over" : "beside";
 }
 
 /// Lines between the title of the learning section in the layout Explore and its button: they must not change with the numbers.
@@ -193,7 +195,11 @@ constexpr std::array kValues{
     Value{"moving", [](const ViewerModel& m) { return word(m.camera().is_moving()); }},
     Value{"busy", [](const ViewerModel& m) { return word(m.busy()); }},
     Value{"volume", [](const ViewerModel& m) { return fmt::format("{}", m.selection().volume()); }},
-    Value{"inspected", [](const ViewerModel& m) { return word(m.selection().inspection() != nullptr); }},
+    Value{"inspected",
+          [](const ViewerModel& m) {
+              const Selection& selection = m.selection();
+              return word(selection.inspection() != nullptr && !selection.awaits_pick());
+          }},
     Value{"at_home",
           [](const ViewerModel& m) {
               const CameraDescription& home = m.scene().materials().file()->camera;
@@ -276,8 +282,8 @@ constexpr std::array kValues{
     Value{"lesson", [](const ViewerModel& m) { return lesson_text(m); }},
     Value{"tells",
           [](const ViewerModel& m) {
-              const auto halves = m.comparison().labels_in_turns();
-              return halves ? turns_headline(m.comparison().accuracy().table(), *halves).text : std::string("none");
+              const auto headline = m.comparison().headline();
+              return headline ? headline->text : std::string("none");
           }},
     Value{"dialog", [](const ViewerModel& m) { return word(m.open_dialog().is_shown()); }},
     Value{"open_choice", [](const ViewerModel& m) { return m.open_dialog().choice(); }},

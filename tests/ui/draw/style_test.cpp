@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/session/methods.h"
 #include "tests/support/catch.hpp"
 
 using namespace pl::ui;
@@ -65,5 +66,18 @@ TEST_CASE("Style: text of the other themes has 4.5:1 or more on all grounds") {
         CAPTURE(static_cast<int>(theme));
         apply_style(1.0f, theme);
         CHECK(least_contrast(colors::kText) >= 4.5f);
+    }
+}
+
+TEST_CASE("Style: names in the colors of runs have 4.5:1 or more on badges and plots") {
+    const StyleBench bench;
+    for (const Theme theme : {Theme::Dark, Theme::Light, Theme::HighContrast}) {
+        apply_style(1.0f, theme);
+        for (const pl::MethodInfo& method : pl::all_methods()) {
+            CAPTURE(static_cast<int>(theme), method.name);
+            const ImVec4 text = to_vec4(to_text_color(method.color));
+            CHECK(contrast(text, to_vec4(colors::kGround)) >= 4.5f);
+            CHECK(contrast(text, to_vec4(colors::kBadge | 0xff000000u)) >= 4.5f);
+        }
     }
 }

@@ -44,7 +44,9 @@ TEST_CASE("Guided tour: two methods without light samples in turns, split, every
     ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
     model.window().panels.right = false;
     model.render().set_paused(true);
+    model.display().set_exposure(1.25f);
     REQUIRE(begin(bench, model));
+    CHECK(model.display().settings().exposure_ev == 0.0f);
     CHECK(model.scene().name() == "door");
     CHECK_FALSE(model.render().settings().next_event);
     CHECK_FALSE(model.render().paused());

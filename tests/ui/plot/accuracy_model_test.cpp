@@ -85,25 +85,17 @@ TEST_CASE("Accuracy model: the view follows the curves until a person takes it")
     CHECK(model.view().x_axis().high() < 1.0);
 }
 
-TEST_CASE("Accuracy model: a day of flying around does not fill the legend") {
-    Runs runs;
-    for (std::uint64_t i = 1; i <= 40; ++i) runs.push_back(make_run({.number = i, .picture = 100 + i}));
-    runs.push_back(make_run({.number = 41}));
-    AccuracyModel model;
-    model.update(set_of(runs), kThisPicture, 0.0);
-    REQUIRE(model.lines().size() == AccuracyModel::kOtherLines + 1);
-    CHECK(model.lines().front().run == 41 - AccuracyModel::kOtherLines);
-    CHECK(model.lines().back().comparable);
-}
-
-TEST_CASE("Accuracy model: a hidden run stays hidden, another picture makes runs gray") {
+TEST_CASE("Accuracy model: runs of other pictures are not plotted, and come back with their picture") {
     AccuracyModel model;
     model.update(set_of(two_runs()), kThisPicture, 0.0);
     model.toggle_hidden(2);
     CHECK(model.lines()[1].hidden);
     model.update(set_of(two_runs()), kThisPicture + 1, 0.0);
+    CHECK(model.lines().empty());
+    model.update(set_of(two_runs()), kThisPicture, 0.0);
+    REQUIRE(model.lines().size() == 2);
+    CHECK_FALSE(model.lines()[0].hidden);
     CHECK(model.lines()[1].hidden);
-    CHECK_FALSE(model.lines()[0].comparable);
     model.toggle_hidden(2);
     CHECK_FALSE(model.lines()[1].hidden);
 }

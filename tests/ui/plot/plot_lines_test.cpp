@@ -22,13 +22,12 @@ PlotLine line_of(const LiveRun& run) {
 
 }  // namespace
 
-TEST_CASE("Plot: runs of another picture and hidden ones do not stretch the axes") {
+TEST_CASE("Plot: hidden runs do not stretch the axes") {
     CHECK(fit_range(std::span<const PlotLine>{}).x_low < fit_range(std::span<const PlotLine>{}).x_high);
     std::vector<PlotLine> lines{line_of(*make_run({})), line_of(*make_run({.error_of_sample = 1e6}))};
-    lines[1].comparable = false;
+    CHECK(fit_range(lines).y_high >= 1e6);
+    lines[1].hidden = true;
     CHECK(fit_range(lines).y_high <= 1.0 + 1e-9);
-    lines[0].hidden = true;
-    CHECK(fit_range(lines).y_high >= 1e6);  // no other line is visible
     CHECK(fit_range(std::span<const PlotLine>{}).x_low < fit_range(std::span<const PlotLine>{}).x_high);
 }
 

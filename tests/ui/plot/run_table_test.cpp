@@ -157,6 +157,7 @@ TEST_CASE("Run table: one sentence on two methods in turns, by the number of the
     // Without an interval nothing is claimed.
     CHECK(turns_headline(table, halves).text == "Both halves get the same time. Has the left one less noise?");
     CHECK(turns_headline(table, halves).detail == "");
+    CHECK(turns_headline(table, halves, 1).text == "The right half catches up, until both have had the same time.");
     RunRow& row = table.rows[1];
     const auto say = [&](double low, double value, double high) {
         row.gain->net = {value, low, high};
@@ -260,7 +261,7 @@ TEST_CASE("Run table: a run that is over with too few samples says how it goes o
     const auto long_run = make_run({.number = 2, .method = MethodId::Reinforcement, .in_progress = true});
     const Runs short_base{make_run({.last_sample = 4}), long_run};
     const RunRow row = compared_row(make_run_table(short_base, kThisPicture));
-    CHECK(gain_text(row) == "too few samples");
+    CHECK(gain_text(row) == "too short");
     CHECK(row.remark == "Default CPU has too few samples to compare, and has to go on: 1 renders default");
     const Runs short_run{make_run({.in_progress = true}),
                          make_run({.number = 2, .method = MethodId::Reinforcement, .last_sample = 4})};
@@ -301,11 +302,15 @@ TEST_CASE("Run table: says what to do while there is nothing to compare") {
     CHECK_THAT(make_run_table(rendering, kThisPicture).note, contains("Only default so far: 2, 3 render"));
     // Another method renders, though it is not measured yet: no claim that there is only default.
     CHECK(make_run_table(Runs{make_run({})}, kThisPicture).note.empty());
+    // In turns the other run is on its way.
+    CHECK(make_run_table(rendering, kThisPicture, {}, true).note ==
+          "The other run is measured from its second pass on");
+    CHECK(make_run_table(two_runs(), kThisPicture, {}, true).note.empty());
     const Runs alone{make_run({.method = MethodId::Reinforcement})};
     CHECK(gain_text(make_run_table(alone, kThisPicture).rows[0]) == "no baseline");
     CHECK_THAT(make_run_table(alone, kThisPicture).rows[0].remark, contains("nothing to be compared with yet"));
     const Runs few{make_run({}), make_run({.number = 3, .method = MethodId::Reinforcement, .last_sample = 4})};
-    CHECK(gain_text(compared_row(make_run_table(few, kThisPicture))) == "too few samples");
+    CHECK(gain_text(compared_row(make_run_table(few, kThisPicture))) == "too short");
     CHECK_THAT(compared_row(make_run_table(few, kThisPicture)).remark,
                contains("Reinforcement CPU has too few samples"));
     // A default run of another picture is no baseline.
