@@ -52,6 +52,10 @@ inline constexpr CommandSet kPaths(Command::View, Command::Render, Command::Repl
 inline constexpr CommandSet kSampling(Command::View, Command::Render, Command::Replay, Command::Inspect,
                                       Command::Trace);
 inline constexpr CommandSet kPictures(Command::View, Command::Render, Command::Replay);
+inline constexpr CommandSet kHeadless(Command::Render, Command::Replay, Command::Info, Command::Convert,
+                                      Command::Devices, Command::Inspect, Command::Trace, Command::Compare,
+                                      Command::Reference, Command::Bench, Command::Report, Command::Score,
+                                      Command::SelfTest);
 inline constexpr CommandSet kFiles(Command::Render, Command::Inspect);
 inline constexpr CommandSet kWithStats(Command::Render, Command::Replay, Command::Inspect);
 inline constexpr CommandSet kWorking(Command::Render, Command::Replay, Command::Inspect, Command::Trace,

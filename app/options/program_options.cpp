@@ -87,6 +87,9 @@ constexpr auto kProgramOptions = std::to_array<OptionSpec>({
     {.name = "no-progress", .flags = "--no-progress", .value = "", .group = kMessages,
      .help = "No progress bar, no progress lines",
      .is_expert = true, .commands = kWorking, .parse = parse_flag<&Options::no_progress>},
+    // Other renderers need it. Here no command but view opens a window.
+    {.name = "headless", .flags = "--headless,--no-gui", .value = "", .group = kHidden, .help = "",
+     .commands = kHeadless, .parse = [](Options&, Text) {}},
 
     {.name = "window", .flags = "--window", .value = "WxH", .group = kViewer, .help = "Window size (default: what fits the screen, at most 1440x900 times the scale)",
      .commands = CommandSet(Command::View), .parse = parse_window},

@@ -190,8 +190,9 @@ TEST_CASE("a target error in a scene is for rendered pictures of light only") {
 }
 
 TEST_CASE("spellings: aliases, equals signs, negative numbers, the last of two") {
-    const Options options = parse({"render", "--scene=s", "--outfile", "x.pfm", "--samples=5", "-t3", "--eye",
-                                   "-1,-2,-3.5", "--exposure", "-2", "--seed", "1", "--seed", "2", "--fov=+30"});
+    const Options options =
+        parse({"render", "--scene=s", "--outfile", "x.pfm", "--samples=5", "-t3", "--eye", "-1,-2,-3.5", "--exposure",
+               "-2", "--seed", "1", "--seed", "2", "--headless", "--fov=+30"});
     CHECK(options.scene == "s");
     CHECK(options.output == "x.pfm");
     CHECK(options.spp == 5u);
