@@ -126,6 +126,8 @@ def test_a_sampler_may_not_use_its_tracer(door):
 def test_arguments(door):
     with pytest.raises(pathlight.UsageError, match="methods sample"):
         pathlight.PathTracer(door, object())
+    with pytest.raises(pathlight.UsageError, match="got <class"):
+        pathlight.PathTracer(door, Cosine)
     with pytest.raises(pathlight.UsageError, match="bsdf_fraction: expected 0 to 1, got 2"):
         pathlight.PathTracer(door, Cosine(), bsdf_fraction=2)
     with pytest.raises(pathlight.UsageError, match="got 0x5"):
