@@ -1,6 +1,7 @@
 #include "ui/viewer.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -95,6 +96,7 @@ private:
     void wait_for_events();
     void dispatch(const SDL_Event& event);
     WindowActivity activity() const;
+    bool is_over_card() const;
     bool wants_keys(bool is_escape, bool is_tab) const;
     void trace_inputs();
     void build_panels();
@@ -259,8 +261,19 @@ void Viewer::dispatch(const SDL_Event& event) {
     if (is_escape && !io.WantTextInput && gui_.close_popups()) return;
     input_.handle(event, model_,
                   {place_under(picture_places(plan_, image_, layout_.view), input_.pointer()), layout_.view,
-                   io.WantCaptureMouse, wants_keys(is_escape, is_tab),
+                   io.WantCaptureMouse || is_over_card(), wants_keys(is_escape, is_tab),
                    script_ ? script_->seconds() : steady_seconds() - start_});
+}
+
+/// Dear ImGui knows only in the next frame that the pointer is on a card: the press of a finger comes with its motion.
+bool Viewer::is_over_card() const {
+    if (model_.tour().phase() == GuidedTour::Phase::Off)
+        return false;  // clicks go through a headline without buttons
+    const auto& places = gui_memory().places;
+    return std::ranges::any_of(std::array{"tour", "headline"}, [&](const char* name) {
+        const auto card = places.find(name);
+        return card != places.end() && card->second.contains(input_.pointer());
+    });
 }
 
 /// Whether a dialog, a text field or the panels have the keyboard; Esc and the key of the panels lead out of them.

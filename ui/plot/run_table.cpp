@@ -332,8 +332,9 @@ std::string ahead_text(const RunRow& row) {
 TurnsHeadline turns_headline(const RunTable& table, const std::array<RunLabel, 2>& halves,
                              std::optional<std::size_t> late) {
     if (late)
-        return {fmt::format("The {} half catches up, until both have had the same time.", *late == 0 ? "left" : "right"),
-                "", nullptr};
+        return {
+            fmt::format("The {} half catches up, until both have had the same time.", *late == 0 ? "left" : "right"),
+            "", nullptr};
     const RunLabel& base = halves[base_side(halves)];
     const bool is_left = base_side(halves) == 1;
     const RunLabel& label = halves[is_left ? 0 : 1];
