@@ -1,5 +1,7 @@
 #include "app/scene_picture.h"
 
+#include <fmt/format.h>
+
 #include "core/io/load_scene.h"
 #include "ui/model/shown_volumes.h"
 #include "ui/pictures.h"

@@ -16,7 +16,8 @@ WorkerSetup worker_setup(const ViewerOptions& options, std::shared_ptr<const Sce
             .settings = settings,
             .limits = options.limits,
             .load_seconds = load_seconds,
-            .display = options.display};
+            .display = options.display,
+            .learned = options.field};
 }
 
 }  // namespace
@@ -38,7 +39,6 @@ ViewerModel::ViewerModel(const ViewerOptions& options, std::shared_ptr<const Sce
       flight_(bookmarks_, camera_, messages_),
       sequence_({options, messages_, jobs_, link_}, bookmarks_, camera_, render_, files_.pictures()) {
     link_.worker().set_denoised_wanted(display_.denoises());
-    if (options.field) link_.worker().submit(EditLearned{options.field});
     for (const std::string& warning : scene->warnings) messages_.say(MessageLevel::Warning, warning);
     messages_.note(MessageLevel::Info,
                    fmt::format("opened {}: {} triangles", scene_.name(), shown_triangles(*scene)));

@@ -34,6 +34,7 @@ RenderLoop::RenderLoop(const WorkerSetup& setup, Inbox& inbox, Outbox& outbox)
 void RenderLoop::run(const WorkerSetup& setup) {
     yield_to_the_window();
     if (!start_session(setup)) return;
+    if (setup.learned) apply_edits({EditLearned{setup.learned}});
     while (take_requests()) {
         if (!attempt([this] { work(); })) failed_ = true;
         update_status();

@@ -25,6 +25,7 @@ struct WorkerSetup {
     SampleLimits limits;
     double load_seconds = 0.0;
     DisplaySettings display{};
+    std::shared_ptr<const LearnedField> learned = nullptr;  ///< that the first picture begins with; may be null
 };
 
 class RenderLoop {

@@ -81,6 +81,22 @@ TEST_CASE("Render worker: a new camera clears the picture and keeps the learned 
     CHECK(fresh->snapshot.field->passes < 20);
 }
 
+// A field that is given after the start may come behind the first pass, which then shows an untrained one.
+TEST_CASE("Render worker: the first picture begins with the learned field of its setup") {
+    Bench bench;
+    WorkerSetup setup = bench.setup(MethodId::Reinforcement);
+    Session teacher(std::make_shared<FakeBackend>(bench.control), setup.scene, setup.settings);
+    const FilmSlot slot{MethodId::Reinforcement, View::Beauty};
+    while (teacher.passes(slot) < 16) teacher.advance(slot);
+    setup.learned = std::make_shared<const LearnedField>(teacher.export_field(slot.method));
+    setup.limits.spp = 1;
+    RenderWorker worker(std::move(setup));
+    const auto frame = frame_of(worker, 0);
+    REQUIRE(frame);
+    REQUIRE(frame->snapshot.field);
+    CHECK(frame->snapshot.field->passes == 17);
+}
+
 TEST_CASE("Render worker: coarse in motion, and no coarse sample stays in the complete picture") {
     Bench bench;
     bench.control->pass_microseconds = 4000;  // of 64x64: 256 ms for the size below
