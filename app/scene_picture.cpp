@@ -56,7 +56,7 @@ ByteImage draw_discs(const VolumeInspection& volume, const CameraDescription& ca
         add({{"visits", {volume.visits.begin(), volume.visits.end()}}});
     } else {
         add({{"learned radiance", volume.radiance},
-             {fmt::format("true radiance, {}", name_of(truth->target)), truth->light.target}});
+             {fmt::format("true radiance, {}", label_of(truth->target)), truth->light.target}});
         add({{"density of guided paths", ui::relative_to_cosine(truth->mixture_shares)},
              {"product with the BSDF", ui::relative_to_cosine(truth->product_shares)}});
     }
