@@ -209,7 +209,15 @@ def test_pictures_are_saved(door, tmp_path):
         session.save(tmp_path / "film.gif")
 
 
-def test_an_interruption_ends_a_rendering_which_goes_on_to_the_same_bits(door):
+@pytest.fixture
+def interruptible():
+    """Ctrl+C as at a terminal: Python leaves it ignored where the shell began it in the background."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
+def test_an_interruption_ends_a_rendering_which_goes_on_to_the_same_bits(door, interruptible):
     whole = pathlight.Session(door, **SMALL)
     session = pathlight.Session(door, **SMALL)
     threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT)).start()
