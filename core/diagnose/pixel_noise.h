@@ -69,7 +69,7 @@ public:
     double seconds_per_path(GroupSet set) const;
 
 private:
-    static constexpr std::size_t kClasses = kTechniqueCount + kBounceClasses + 2;
+    static constexpr std::size_t kClasses = kTechniqueCount + kBounceClasses + kNoiseLights.size();
 
     struct Sums {
         double paths = 0.0;

@@ -24,7 +24,6 @@ enum class Technique : std::uint32_t {
     Field,          ///< a direction sampled by the guiding field
     Delta,          ///< a direction of a delta lobe: mirror reflection or refraction
 };
-inline constexpr std::size_t kTechniqueCount = 5;
 
 /// The event that ended a path.
 enum class PathEnd : std::uint32_t {
@@ -60,6 +59,8 @@ inline constexpr auto kChoices<diagnose::PathEnd> = std::to_array<ChoiceInfo<dia
 }  // namespace pl
 
 namespace pl::diagnose {
+
+inline constexpr std::size_t kTechniqueCount = kChoices<Technique>.size();
 
 /// Emission that a path reached: of a surface or, where the path escaped, of the environment.
 struct EmissionRecord {

@@ -14,6 +14,9 @@ namespace pl {
 /// x, y, z and a number without meaning, in one vector register.
 using BuildVector = float __attribute__((vector_size(16)));
 
+/// Half of the area of a box of this size. In double, so that areas of scenes of any valid size neither overflow nor underflow.
+inline double half_area(const Vec3d& size) { return size.x * size.y + size.y * size.z + size.z * size.x; }
+
 /// The first of several equal corners counts, so that a box of boxes is the box of their points in order, to the sign
 /// of a zero.
 struct BuildBox {
@@ -25,10 +28,8 @@ struct BuildBox {
         low = other.low < low ? other.low : low;
         high = other.high > high ? other.high : high;
     }
-    /// In double, so that areas of scenes of any valid size neither overflow nor underflow.
     double half_area() const {
-        const Vec3d d = Vec3d{high[0], high[1], high[2]} - Vec3d{low[0], low[1], low[2]};
-        return d.x * d.y + d.y * d.z + d.z * d.x;
+        return pl::half_area(Vec3d{high[0], high[1], high[2]} - Vec3d{low[0], low[1], low[2]});
     }
 };
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "core/scene/bvh_split.h"
 #include "tests/support/catch.hpp"
 #include "tests/support/scenes/shapes.h"
 
@@ -21,10 +22,7 @@ BvhNode inner(const BvhNode& a, const BvhNode& b, std::uint32_t first) {
 /// The sum of the areas of all nodes.
 double cost_of(const Bvh& bvh) {
     double cost = 0.0;
-    for (const BvhNode& node : bvh.nodes) {
-        const Vec3d d = Vec3d{node.high} - Vec3d{node.low};
-        cost += d.x * d.y + d.y * d.z + d.z * d.x;
-    }
+    for (const BvhNode& node : bvh.nodes) cost += half_area(Vec3d{node.high} - Vec3d{node.low});
     return cost;
 }
 
