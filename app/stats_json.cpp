@@ -54,8 +54,7 @@ Json guiding_json(const std::optional<GuidingStatus>& guiding) {
     if (!guiding) return nullptr;
     return {{"pays", guiding->pays},
             {"variance_ratio", guiding->variance_ratio ? Json(*guiding->variance_ratio) : Json(nullptr)},
-            {"unguided_passes", guiding->unguided_passes},
-            {"trial_paths", guiding->trial_paths}};
+            {"unguided_passes", guiding->unguided_passes}};
 }
 
 void add_counters(Json& stats, const PassCounters& counters) {

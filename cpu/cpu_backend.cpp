@@ -119,11 +119,9 @@ public:
                                                             .settings = request.method_settings(),
                                                             .camera = request.camera,
                                                             .sample = request.sample,
-                                                            .film = films_.view(request.slot, request.weights),
-                                                            .use = request.use,
-                                                            .subset = request.subset});
-        if (request.use != SampleUse::Trial)
-            counters += refine_emission_of(request, static_cast<std::uint32_t>(counters.paths));
+                                                            .film = films_.view(request.slot, request.weight()),
+                                                            .block = request.block});
+        counters += refine_emission_of(request, static_cast<std::uint32_t>(counters.paths));
         return counters;
     }
 
@@ -206,15 +204,12 @@ private:
     PassCounters refine_emission_of(const PassRequest& request, std::uint32_t paths) {
         if (!has_visible_emission(scene_->view())) return {};
         const IndexRange pixels{request.first_pixel, request.first_pixel + paths};
-        const FilmView film = films_.view(request.slot, request.weights);
-        return launch(
-            kEmissionKernels, request.features,
-            EmissionPass{
-                .setup = make_setup(request.path, pixels, nullptr),
-                .tracer = *tracer_,
-                .context = {request.camera, request.path, {film.width, film.height, request.sample}, request.passes},
-                .film = film,
-                .subset = request.subset});
+        const FilmView film = films_.view(request.slot, request.weight());
+        return launch(kEmissionKernels, request.features,
+                      EmissionPass{.setup = make_setup(request.path, pixels, nullptr),
+                                   .tracer = *tracer_,
+                                   .context = request.emission_context({film.width, film.height, request.sample}),
+                                   .film = film});
     }
 
     PassCounters run_view(const PassSetup& setup, const PassRequest& request) {
@@ -224,7 +219,7 @@ private:
                                .shown = shown_field(request.slot),
                                .camera = request.camera,
                                .sample = request.sample,
-                               .film = films_.view(request.slot, request.weights)});
+                               .film = films_.view(request.slot, request.weight())});
     }
 
     CpuSettings settings_;

@@ -91,8 +91,8 @@ private:
     }
     void launch_picture(const PassRequest& request, const PixelPaths& pixels);
     void launch_view(const PassRequest& request, const ViewContext& context, PathRange range);
-    void use_samples(const PassRequest& request, PathRange range, const FilmView& film);
-    void use_pass(const PassRequest& request, PathRange pixels, std::uint32_t offset, const FilmView& film);
+    void add_samples(const PassRequest& request, PathRange range, const FilmView& film);
+    void add_pass(const PassRequest& request, PathRange pixels, std::uint32_t offset, const FilmView& film);
     void refine_launch(const PassRequest& request, PathRange range, const FilmView& film);
 
     CudaDevice device_;
@@ -131,7 +131,7 @@ void CudaBackend::launch_view(const PassRequest& request, const ViewContext& con
 }
 
 PassCounters CudaBackend::run_pass(const PassRequest& request) {
-    const FilmView film = films_.view(request.slot, request.weights);
+    const FilmView film = films_.view(request.slot, request.weight());
     const bool is_picture = request.slot.view == View::Beauty;
     const PixelGrid grid{film.width, film.height, request.sample};
     const ViewContext context{.view = request.slot.view,
@@ -140,7 +140,7 @@ PassCounters CudaBackend::run_pass(const PassRequest& request) {
                               .settings = request.path,
                               .grid = grid};
     LaunchSize& size = picture_sizes_[static_cast<std::size_t>(request.slot.index())];
-    const std::uint32_t per_pass = request.subset.count(film.pixels.count);
+    const std::uint32_t per_pass = film.pixels.count;
     const std::uint32_t passes = size.passes(per_pass, request.most_passes);
     const std::uint32_t end = passes > 1 ? passes * per_pass : std::min(request.end_pixel, per_pass);
     const auto trace = [&](PathRange range) {
@@ -151,56 +151,51 @@ PassCounters CudaBackend::run_pass(const PassRequest& request) {
                                  .grid = grid,
                                  .first = range.first,
                                  .per_pass = per_pass,
-                                 .subset = request.subset,
                                  .radiance = {samples_.data(), count}});
     };
-    return launcher_.run({request.slot.index(), request.sample, request.use, request.path.stream}, size,
+    return launcher_.run({request.slot.index(), request.sample, request.path.stream}, size,
                          {request.first_pixel, end}, request.stop, request.path, trace,
-                         [&](PathRange range) { use_samples(request, range, film); });
+                         [&](PathRange range) { add_samples(request, range, film); });
 }
 
-/// Puts the samples of a launch to their use, pass by pass.
-void CudaBackend::use_samples(const PassRequest& request, PathRange range, const FilmView& film) {
-    const std::uint32_t per_pass = request.subset.count(film.pixels.count);
+/// Adds the samples of a launch to the film, pass by pass.
+void CudaBackend::add_samples(const PassRequest& request, PathRange range, const FilmView& film) {
+    const std::uint32_t per_pass = film.pixels.count;
     for (std::uint32_t first = range.first; first < range.end;) {
         const std::uint32_t pass = first / per_pass;
         const std::uint32_t end = std::min(range.end, (pass + 1) * per_pass);
         PassRequest one = request;
         one.sample += pass;
         one.passes += pass;
-        use_pass(one, {first - pass * per_pass, end - pass * per_pass}, first - range.first, film);
+        add_pass(one, {first - pass * per_pass, end - pass * per_pass}, first - range.first, film);
         first = end;
     }
 }
 
 /// The same for some pixels of one pass, whose samples begin at `offset`.
-void CudaBackend::use_pass(const PassRequest& request, PathRange pixels, std::uint32_t offset, const FilmView& film) {
+void CudaBackend::add_pass(const PassRequest& request, PathRange pixels, std::uint32_t offset, const FilmView& film) {
     const std::uint32_t count = pixels.end - pixels.first;
     launch(is_heat_map(request.slot.view) ? kSetSamples : kAddSamples, one_thread_each(count), stream_, "add_samples",
            film,
            LaunchSamples{.radiance = {samples_.data() + offset, count},
                          .first = pixels.first,
                          .pass = request.sample,
-                         .subset = request.subset,
-                         .use = request.use,
+                         .block = request.block,
                          .counters = launcher_.counters()});
-    const bool refines = request.slot.view == View::Beauty && request.use != SampleUse::Trial &&
-                         has_visible_emission(existing_scene().view());
+    const bool refines = request.slot.view == View::Beauty && has_visible_emission(existing_scene().view());
     if (refines) refine_launch(request, pixels, film);
 }
 
 /// Refines the emission in the samples that a launch has added.
 void CudaBackend::refine_launch(const PassRequest& request, PathRange range, const FilmView& film) {
     const SceneView scene = existing_scene().view();
-    const EmissionSetup setup{
-        .scene = scene,
-        .context = {request.camera, request.path, {film.width, film.height, request.sample}, request.passes},
-        .film = film,
-        .range = range,
-        .subset = request.subset,
-        .counters = launcher_.counters()};
+    const EmissionSetup setup{.scene = scene,
+                              .context = request.emission_context({film.width, film.height, request.sample}),
+                              .film = film,
+                              .range = range,
+                              .counters = launcher_.counters()};
     const std::size_t features = covering_set(request.features);
-    if (request.passes == kMarkingPass && range.first == 0 && !scene.lights.empty())
+    if (setup.context.looks() == kMarkingLook && range.first == 0 && !scene.lights.empty())
         launch(kBorderKernels[features], one_thread_each(scene.lights.count), stream_, "mark_borders", setup);
     launch(kEmissionKernels[features], one_thread_each(range.end - range.first), stream_, "refine_film", setup);
 }

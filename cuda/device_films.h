@@ -15,7 +15,7 @@ public:
     void reset(FilmSlot slot, int width, int height, const Stream& stream);
 
     /// The following functions throw Error if the film was never reset.
-    FilmView view(FilmSlot slot, PassWeights weights) { return films_.existing(slot).view(weights); }
+    FilmView view(FilmSlot slot, std::uint32_t weight) { return films_.existing(slot).view(weight); }
     FilmReading read(FilmSlot slot, const Stream& stream) const;
     FilmReading read_halves(FilmSlot slot, const Stream& stream) const;
     std::vector<std::uint32_t> invalid_samples(FilmSlot slot, const Stream& stream) const;

@@ -16,7 +16,6 @@ namespace pl::cuda {
 struct LaunchKey {
     int slot = -1;  ///< FilmSlot::index(); negative: a precomputation
     std::uint32_t sample = 0;
-    SampleUse use = SampleUse::Film;
     pl::Stream stream = pl::Stream::Picture;  ///< of random numbers; pl::Stream, not the stream of the device
 
     friend bool operator==(const LaunchKey&, const LaunchKey&) = default;

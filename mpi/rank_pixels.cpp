@@ -101,16 +101,15 @@ void RankWork::mark_borders(const PassRequest& request, Film& film, Payload& pay
     }
     ranks_.broadcast(std::as_writable_bytes(std::span(marks)));
     if (ranks_.rank() == 0) return;
-    for (const IndexRange& range : film.shares.shares_of(ranks_.rank())) {
-        pixels.resize(range.count());
-        locally([&] {
-            backend_->read_pixels(request.slot, range.begin, pixels);
-            for (std::uint32_t i = 0; i < range.count(); ++i)
-                if (marks[range.begin + i] != 0 && pixels[i].emission.varies == 0)
-                    pixels[i].emission.varies = EmissionSeen::kBorderMarked;
-            backend_->write_pixels(request.slot, range.begin, pixels);
-        });
-    }
+    // Of a first pass in parts, whose marks are of the first look, only the first one is shared out by now.
+    pixels.resize(film.pixels);
+    locally([&] {
+        backend_->read_pixels(request.slot, 0, pixels);
+        for (std::size_t i = 0; i < pixels.size(); ++i)
+            if (marks[i] != 0 && pixels[i].emission.varies == 0)
+                pixels[i].emission.varies = EmissionSeen::kBorderMarked;
+        backend_->write_pixels(request.slot, 0, pixels);
+    });
 }
 
 /// The emission that all pixels have seen, to all ranks: pixels are compared with their neighbors, see look_for_emission().

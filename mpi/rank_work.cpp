@@ -22,7 +22,7 @@ bool is_power_of_two(std::uint32_t n) { return n >= 2 && (n & (n - 1)) == 0; }
 
 /// Whether emission is refined after the samples of a pass, see camera_emission.h.
 bool refines_emission(const PassRequest& request, const HostScene& scene) {
-    return request.slot.view == View::Beauty && request.use != SampleUse::Trial && has_visible_emission(scene.view());
+    return request.slot.view == View::Beauty && has_visible_emission(scene.view());
 }
 
 }  // namespace
@@ -134,24 +134,23 @@ void RankWork::reset_film(const RankCommand& command) {
 
 void RankWork::run_pass(const PassRequest& request, Payload& payload) {
     Film& film = films_[static_cast<std::size_t>(request.slot.index())];
-    const std::uint32_t count = request.subset.count(film.pixels);
-    IndexRange numbers{request.first_pixel, std::min(request.end_pixel, count)};
-    film.shares.cover(numbers.end == count ? film.pixels : numbers.end * request.subset.step);
+    IndexRange pixels{request.first_pixel, std::min(request.end_pixel, film.pixels)};
+    film.shares.cover(pixels.end);
     film.seconds.resize(film.shares.blocks());
     film.is_gathered = false;
-    const bool is_whole = request.first_pixel == 0 && request.subset.step == 1 && numbers.end == count;
+    const bool is_whole = pixels == IndexRange{0, film.pixels};
     if (is_whole && is_power_of_two(request.passes)) balance(request.slot, film);
     if (scene_ && refines_emission(request, *scene_)) {
-        if (is_power_of_two(request.passes - 1)) share_emission(request.slot, film);
-        if (request.passes == kMarkingPass && request.first_pixel == 0 && !numbers.empty()) {
+        const std::uint32_t looks = request.emission_context({}).looks();
+        if (is_power_of_two(looks - 1)) share_emission(request.slot, film);
+        if (looks == kMarkingLook && request.first_pixel == 0 && !pixels.empty()) {
             mark_borders(request, film, payload);
-            ++numbers.begin;
+            ++pixels.begin;
         }
     }
     bool is_first = true;
     for (std::size_t block = 0; block < film.shares.blocks(); ++block) {
-        const IndexRange part =
-            common_part(numbers, numbers_within(request.subset, film.shares.block(block), film.pixels));
+        const IndexRange part = common_part(pixels, film.shares.block(block));
         if (part.empty()) continue;
         if (!is_first && !goes_on(payload.stop)) break;
         is_first = false;
@@ -159,10 +158,9 @@ void RankWork::run_pass(const PassRequest& request, Payload& payload) {
     }
 }
 
-void RankWork::run_block(const PassRequest& request, Film& film, std::size_t block, IndexRange numbers,
+void RankWork::run_block(const PassRequest& request, Film& film, std::size_t block, IndexRange pixels,
                          Payload& payload) {
-    const IndexRange own = film.shares.share(block, ranks_.rank());
-    const IndexRange part = common_part(numbers, numbers_within(request.subset, own, film.pixels));
+    const IndexRange part = common_part(pixels, film.shares.share(block, ranks_.rank()));
     if (part.empty()) return;
     const Stopwatch watch;
     PassRequest local = request;

@@ -5,15 +5,11 @@
 
 namespace pl {
 
-IndexRange numbers_within(const PixelSubset& subset, IndexRange pixels, std::uint32_t film_pixels) {
-    const std::uint32_t count = subset.count(film_pixels);
-    // Pixels ascend with their numbers, one of every `step`.
-    const auto first_from = [&](std::uint32_t pixel) {
-        const std::uint32_t number = std::min(subset.number(pixel), count);
-        return number < count && subset.pixel(number) < pixel ? number + 1 : number;
-    };
-    return {first_from(pixels.begin), first_from(pixels.end)};
-}
+namespace {
+
+std::uint32_t between_mean_blocks(std::uint32_t pixel) { return pixel - pixel % MeanBlock::kMostPixels; }
+
+}  // namespace
 
 void Shares::cover(std::uint32_t end) {
     std::uint32_t begin = cuts_.empty() ? 0 : cuts_.back();
@@ -21,11 +17,15 @@ void Shares::cover(std::uint32_t end) {
     while (begin < end) {
         // Equal blocks, rather than a short one at the end.
         const std::uint64_t left = (end - begin + most - 1) / most;
-        const auto length = static_cast<std::uint32_t>((end - begin + left - 1) / left);
+        const auto even = begin + static_cast<std::uint32_t>((end - begin + left - 1) / left);
+        const std::uint32_t length = std::min(between_mean_blocks(even + MeanBlock::kMostPixels - 1), end) - begin;
         // Rounded up, so that rank 0 has the first pixel of every block.
-        for (std::uint64_t i = 0; i <= ranks_; ++i)
-            cuts_.push_back(begin + static_cast<std::uint32_t>((i * length + ranks_ - 1) / ranks_));
-        begin += length;
+        const std::uint32_t last = begin + length;
+        for (std::uint64_t i = 0; i <= ranks_; ++i) {
+            const auto cut = begin + static_cast<std::uint32_t>((i * length + ranks_ - 1) / ranks_);
+            cuts_.push_back(i == 0 ? begin : std::min(between_mean_blocks(cut + MeanBlock::kMostPixels - 1), last));
+        }
+        begin = last;
     }
 }
 
@@ -57,7 +57,9 @@ void Shares::balance_block(std::size_t block, std::span<const double> seconds) {
         while (share + 1 < ranks_ && before + seconds[share] < i * step) before += seconds[share++];
         const double part = seconds[share] > 0.0 ? (i * step - before) / seconds[share] : 0.0;
         const double at = old[share] + std::clamp(part, 0.0, 1.0) * (old[share + 1] - old[share]);
-        cuts[i] = std::clamp(static_cast<std::uint32_t>(at), std::max(cuts[i - 1], old[0] + 1), old[ranks_]);
+        const std::uint32_t least = std::min(old[0] + MeanBlock::kMostPixels, old[ranks_]);  // for rank 0
+        cuts[i] = std::clamp(between_mean_blocks(static_cast<std::uint32_t>(at)), std::max(cuts[i - 1], least),
+                             old[ranks_]);
     }
 }
 

@@ -16,11 +16,9 @@ inline IndexRange common_part(IndexRange a, IndexRange b) {
     return {begin, end > begin ? end : begin};
 }
 
-/// The numbers of a subset's pixels that lie in a range of the film.
-IndexRange numbers_within(const PixelSubset& subset, IndexRange pixels, std::uint32_t film_pixels);
-
 /// A film as blocks of pixels, each cut into one contiguous share per rank. A pass ends or is stopped between blocks, so the pixels
-/// rendered are a prefix of the film whatever the number of ranks.
+/// rendered are a prefix of the film whatever the number of ranks. No cut divides a block of pixels that variances are measured
+/// against, see MeanBlock.
 class Shares {
 public:
     /// Pixels of a share, at most, unless a test asks for fewer: tenths of a second of work, after which a request to stop is honored.

@@ -126,13 +126,12 @@ private:
         ChunkQueue queue(0, pixels, kChunk, stop_);
         run_on_plain_threads(threads_, [&](int) {
             for (IndexRange range = queue.claim(); !range.empty(); range = queue.claim())
-                for (std::uint32_t pixel = range.begin; pixel < range.end; ++pixel)
-                    trace_pixel(pixel, passes_.first_sample + pass);
+                for (std::uint32_t pixel = range.begin; pixel < range.end; ++pixel) trace_pixel(pixel, pass);
         });
     }
 
-    void trace_pixel(std::uint32_t pixel, std::uint32_t sample) {
-        const PathDefects defects = replay_path(passes_, field_, pixel, sample);
+    void trace_pixel(std::uint32_t pixel, std::uint32_t pass) {
+        const PathDefects defects = replay_path(passes_, field_, pixel, pass);
         DiagnosticsMap::Pixel& found = map_.pixels[pixel];
         if (passes_.is_closed) found[index_of(DiagnosticKind::EscapedPath)] += defects.escapes;
         found[index_of(DiagnosticKind::LookupMiss)] += defects.lookup_misses;

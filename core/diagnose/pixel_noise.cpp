@@ -168,8 +168,7 @@ void PixelNoiseTracer::trace(const PassReplay& passes, const AnyFieldView& field
     const std::size_t group = steps_ % kJackknifeGroups;
     const std::uint32_t first = passes.samples + paths();
     const ThreadStopwatch watch;
-    for (std::uint32_t i = 0; i < kPathsPerStep; ++i)
-        replay_path(passes, field, pixel_, passes.first_sample + first + i);
+    for (std::uint32_t i = 0; i < kPathsPerStep; ++i) replay_path(passes, field, pixel_, first + i);
     sums.add_seconds(group, watch.seconds());
     for (std::uint32_t i = 0; i < kPathsPerStep; ++i)
         sums.add(group, contributions_of(record_path(passes, field, pixel_, first + i)));

@@ -11,7 +11,7 @@ namespace {
 PassReplay without_field(const PassReplay& passes) {
     return {.width = passes.width,
             .height = passes.height,
-            .first_sample = passes.first_sample,
+            .schedule = passes.schedule,
             .samples = passes.samples,
             .next_pixel = passes.next_pixel,
             .scene = passes.scene,
@@ -38,7 +38,7 @@ PassPair pass_pair(const Session& session, FilmSlot slot) {
     PassPair pair{.plain = without_field(own), .guided_method = owner, .shows_guided = own.volumes != nullptr};
     PassReplay guided = owner == slot.method ? std::move(own) : session.pass_replay({owner, slot.view});
     if (!guided.volumes) return pair;
-    guided.first_sample = pair.plain.first_sample;
+    guided.schedule = pair.plain.schedule;
     guided.samples = pair.plain.samples;
     guided.next_pixel = pair.plain.next_pixel;
     pair.guided = std::move(guided);

@@ -200,7 +200,7 @@ AnyFieldView field_of(PassReplay& passes) {
 }
 
 PathRecord record_path(const PassReplay& passes, const AnyFieldView& field, std::uint32_t pixel, std::uint32_t pass) {
-    const std::uint32_t sample = passes.first_sample + pass;
+    const std::uint32_t sample = passes.schedule.sample_of(pass);
     const PixelGrid grid{static_cast<std::uint32_t>(passes.width), static_cast<std::uint32_t>(passes.height), sample};
     const auto trace = [&](const auto& method, const PathSettings& path) {
         using M = Observed<std::remove_cvref_t<decltype(method)>>;
@@ -210,8 +210,8 @@ PathRecord record_path(const PassReplay& passes, const AnyFieldView& field, std:
         const SampledScene sampled = with_delta_lights(passes.scene->view(), path);
         return PathRecorder<M>({sampled.scene, observed, sampled.path}, choices).run(state);
     };
-    PathRecord record = with_replayed_method<ObservedGuided>(passes, field, sample, trace);
-    record.is_guided = is_guided_path(passes, sample);
+    PathRecord record = with_replayed_method<ObservedGuided>(passes, field, pass, trace);
+    record.is_guided = is_guided_path(passes, pass);
     const bool trains = passes.run_of(pass).trains && passes.learning.target == LearningTarget::ExpectedSarsa;
     for (VertexRecord& vertex : record.vertices)
         if (!trains) vertex.target.reset();

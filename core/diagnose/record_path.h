@@ -131,7 +131,7 @@ struct VertexRecord {
 
 struct PathRecord {
     std::uint32_t pixel = 0;  ///< row-major
-    /// That the path's random numbers are drawn by: the sample's number in its picture, and PassReplay::first_sample more.
+    /// That the path's random numbers are drawn by, see PassSchedule::sample_of().
     std::uint32_t sample = 0;
     bool is_guided = false;
     Vec3f eye{0.0f};             ///< origin of the camera ray

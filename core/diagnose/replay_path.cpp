@@ -36,12 +36,12 @@ PathDefects trace_again(const PassReplay& passes, const PathSettings& path, cons
 }  // namespace
 
 PathDefects replay_path(const PassReplay& passes, const AnyFieldView& field, std::uint32_t pixel,
-                        std::uint32_t sample) {
+                        std::uint32_t pass) {
     std::uint32_t clamped = 0;
     PathDefects defects =
-        with_replayed_method<CountingMethod>(passes, field, sample, [&](auto method, const PathSettings& path) {
+        with_replayed_method<CountingMethod>(passes, field, pass, [&](auto method, const PathSettings& path) {
             if constexpr (requires { method.clamped; }) method.clamped = passes.repeats_training ? &clamped : nullptr;
-            return trace_again(passes, path, method, pixel, sample);
+            return trace_again(passes, path, method, pixel, passes.schedule.sample_of(pass));
         });
     defects.clamped_samples = clamped;
     return defects;

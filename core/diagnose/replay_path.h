@@ -14,18 +14,18 @@ namespace pl::diagnose {
 
 // The method of a past path: the one choice that all ways of tracing it again have in common.
 
-/// Whether the path of a sample was sampled by the field.
-inline bool is_guided_path(const PassReplay& passes, std::uint32_t sample) {
-    return passes.volumes != nullptr && passes.is_guided(sample - passes.first_sample);
+/// Whether the paths of a pass were sampled by the field.
+inline bool is_guided_path(const PassReplay& passes, std::uint32_t pass) {
+    return passes.volumes != nullptr && passes.is_guided(pass);
 }
 
-/// Returns trace(method, path settings) with the method that sampled the path. `GuidedBy<Field>` is a Guided method of any
+/// Returns trace(method, path settings) with the method that sampled the paths of a pass. `GuidedBy<Field>` is a Guided method of any
 /// target, which does not change paths; its members that are constant during a pass are set here.
 template <template <class> class GuidedBy, class Trace>
-auto with_replayed_method(const PassReplay& passes, const AnyFieldView& field, std::uint32_t sample, Trace&& trace) {
-    const bool is_guided = is_guided_path(passes, sample);
+auto with_replayed_method(const PassReplay& passes, const AnyFieldView& field, std::uint32_t pass, Trace&& trace) {
+    const bool is_guided = is_guided_path(passes, pass);
     PathSettings path = is_guided || !passes.volumes ? passes.path : passes.unguided_path;
-    path.sequences = passes.run_of(sample - passes.first_sample).sequences;
+    path.sequences = passes.run_of(pass).sequences;
     if (!is_guided) return trace(DefaultMethod{}, path);
     return visit_field(field, [&](const auto& view) {
         using Field = std::remove_cvref_t<decltype(view)>;
@@ -46,7 +46,6 @@ struct PathDefects {
 
 /// Runs the kernel's own loop, trace_path(), on the CPU. `field` is the view of PassReplay::field; empty for methods without
 /// one.
-PathDefects replay_path(const PassReplay& passes, const AnyFieldView& field, std::uint32_t pixel,
-                        std::uint32_t sample);
+PathDefects replay_path(const PassReplay& passes, const AnyFieldView& field, std::uint32_t pixel, std::uint32_t pass);
 
 }  // namespace pl::diagnose

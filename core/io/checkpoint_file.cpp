@@ -11,7 +11,8 @@
 namespace pl {
 namespace {
 
-constexpr SealedKind kCheckpointKind{.magic = "PLCHECK\n", .version = 10, .title = "checkpoint", .word = "checkpoint"};
+constexpr SealedKind kCheckpointKind{
+    .magic = "PLCHECK\n", .version = 11, .title = "checkpoint", .word = "checkpoint"};
 
 /// transfer(), also for the kinds of values that only checkpoints hold. Each works for writing, with constant values, and for
 /// reading.
@@ -78,12 +79,11 @@ public:
         all(film.is_allocated, film.passes, film.next_pixel, film.render_seconds, film.learn_seconds);
         counters(film.counters);
         GuidingChoice::each_value(film.guiding, [this](auto& value) { one(value); });
-        all(film.is_guided, film.trains, film.unguided_passes, film.trial_paths);
+        all(film.is_guided, film.trains, film.unguided_passes);
         counters(film.measured);
-        counters(film.trial);
         each(film.runs, [this](auto& run) {
             all(run.first_pass, run.first_sample, run.sequences.name, run.sequences.first_sample, run.is_guided,
-                run.trains);
+                run.trains, run.decides);
         });
         one(film.updates_seen);
     }

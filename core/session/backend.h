@@ -12,7 +12,7 @@
 #include "core/fields/field_model.h"
 #include "core/kernel/film/frame_pixel.h"
 #include "core/kernel/film/sample_variance.h"
-#include "core/kernel/integrator/path.h"
+#include "core/kernel/integrator/camera_emission.h"
 #include "core/kernel/methods/learning_target.h"
 #include "core/kernel/scene/camera.h"
 #include "core/scene/scene_storage.h"
@@ -64,20 +64,21 @@ struct PassRequest {
     Camera camera;
     MixtureSettings mixture{};
     LearningSettings learning{};
-    std::uint32_t sample =
-        0;  ///< number of the sample, the same for every pixel; decides the half of the film and the weight
+    std::uint32_t sample = 0;  ///< number of the sample, the same for every pixel; decides the half of the film
     std::uint32_t passes = 1;  ///< of the film, this one included
-    PassWeights weights{};
+    PassSchedule schedule{};   ///< of the film
     std::uint32_t first_pixel = 0;
     std::uint32_t end_pixel = kToTheLast;
     std::uint32_t most_passes = 1;
-    SampleUse use = SampleUse::Film;
-    PixelSubset subset{};  ///< with a step above 1, `first_pixel` and `end_pixel` number its pixels
+    MeanBlock block{};  ///< that the variance of the samples is measured against, if it is
     const StopFlag* stop = nullptr;
 
     /// The method whose field guides the paths, if it has one.
     MethodId method() const { return is_guided ? slot.method : baseline_method(); }
     MethodSettings method_settings() const { return {mixture, learning, trains}; }
+    /// Of its samples in the film.
+    std::uint32_t weight() const { return schedule.weight_of(passes - 1); }
+    EmissionContext emission_context(const PixelGrid& grid) const { return {camera, path, grid, passes, schedule}; }
 };
 
 /// One stratified probe for every cell of every volume, or for a range of them, recorded into a method's field.

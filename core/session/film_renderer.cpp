@@ -30,7 +30,7 @@ Progress FilmRenderer::advance(FilmSlot slot, const StopFlag* stop, std::uint32_
 Progress FilmRenderer::advance_to_path(FilmSlot slot, std::uint32_t pixel, const StopFlag* stop) {
     prepare(slot);
     if (needs_precompute(slot)) return precompute(slot, stop);
-    if (const auto instead = begin_pass(slot, stop)) return *instead;
+    if (const auto instead = begin_pass(slot)) return *instead;
     return render_parts_before(slot, pixel, stop) ? Progress::Rendered : Progress::Stopped;
 }
 
@@ -54,21 +54,18 @@ void FilmRenderer::ensure(FilmSlot slot) {
     reset(slot);
     film = FilmProgress{.origin = film.origin, .guiding = film.guiding};
     film.is_allocated = true;
+    guiding_.begin_film(slot, film);
 }
 
 /// Decides about a pass that begins, and does nothing for a pass under way. Returns the progress to report in place of a pass, if any.
-std::optional<Progress> FilmRenderer::begin_pass(FilmSlot slot, const StopFlag* stop) {
+std::optional<Progress> FilmRenderer::begin_pass(FilmSlot slot) {
     ensure(slot);
     FilmProgress& film = films_[slot];
-    if (learns_from(slot) && !film.is_under_way()) {
-        fields_.begin_pass(slot.method);
-        film.trains = fields_.is_trained_by_pass(slot.method, film.passes);
-    }
+    if (film.is_under_way()) return std::nullopt;
+    if (learns_from(slot)) fields_.begin_pass(slot.method);
     // The map shows a changing field: restarting at powers of two keeps at least half of the samples recent.
-    if (slot.view == View::RadianceMap && !film.is_under_way() && is_power_of_two(film.passes)) reset(slot);
-    const bool is_chosen =
-        !guiding_.is_choice_due(slot, film) || guiding_.choose(slot, film, pass_request(slot, slot.method, stop));
-    if (!is_chosen) return Progress::Stopped;
+    if (slot.view == View::RadianceMap && is_power_of_two(film.passes)) reset(slot);
+    guiding_.begin_pass(slot, film);
     if (needs_precompute(slot)) return Progress::Precomputed;  // by the choice just made
     begin_run_if_due(slot);
     return std::nullopt;
@@ -89,7 +86,7 @@ Progress FilmRenderer::precompute(FilmSlot slot, const StopFlag* stop) {
 
 /// The rest of a pass, in parts, or several whole passes.
 Progress FilmRenderer::render_passes(FilmSlot slot, const StopFlag* stop, std::uint32_t most) {
-    if (const auto instead = begin_pass(slot, stop)) return *instead;
+    if (const auto instead = begin_pass(slot)) return *instead;
     const std::uint32_t pixels = inputs_.pixel_count();
     if (!render_parts_before(slot, pixels - 1, stop)) return Progress::Stopped;
     render_part(slot, pixels, stop, equal_passes(slot, most));
@@ -104,12 +101,13 @@ Progress FilmRenderer::render_passes(FilmSlot slot, const StopFlag* stop, std::u
 void FilmRenderer::begin_run_if_due(FilmSlot slot) {
     FilmProgress& film = films_[slot];
     std::vector<PassRun>& runs = film.runs;
-    if (film.is_under_way() || slot.view != View::Beauty) return;
+    if (slot.view != View::Beauty) return;
     PassRun next{.first_pass = film.passes,
-                 .first_sample = sample_number(slot),
+                 .first_sample = schedule(slot).sample_of(film.passes),
                  .is_guided = film.is_guided,
-                 .trains = learns_from(slot) && film.is_guided && film.trains};
-    next.sequences = next.trains ? next.own_sequences() : next.sequences_behind(runs);
+                 .trains = film.trains,
+                 .decides = guiding_.role_of(slot, film, film.passes) != PassRole::None};
+    next.sequences = next.trains || next.decides ? next.own_sequences() : next.sequences_behind(runs);
     const std::uint64_t updates = fields_.progress(slot.method).updates;
     const bool goes_on = !runs.empty() && next.is_like(runs.back()) && (!next.trains || updates == film.updates_seen);
     if (goes_on || (!runs.empty() && runs.back().first_pass == film.passes))
@@ -118,27 +116,36 @@ void FilmRenderer::begin_run_if_due(FilmSlot slot) {
     film.updates_seen = updates;
 }
 
-/// The number of the pass under way for its random numbers. A learner counts the passes of its field, since passes of its earlier
-/// pictures have trained the tables, see FieldProgress::without_part().
-std::uint32_t FilmRenderer::sample_number(FilmSlot slot) const {
-    return learns_from(slot) ? static_cast<std::uint32_t>(fields_.progress(slot.method).passes) : films_[slot].passes;
+/// A learner counts the passes of its field, since passes of its earlier pictures have trained the tables, see
+/// FieldProgress::without_part().
+PassSchedule FilmRenderer::schedule(FilmSlot slot) const {
+    const FilmProgress& film = films_[slot];
+    PassSchedule schedule = film.guiding.schedule();
+    if (!learns_from(slot)) return schedule;
+    const std::uint64_t passes = fields_.progress(slot.method).passes;
+    schedule.trained = static_cast<std::uint32_t>(std::max(passes, std::uint64_t{film.passes}) - film.passes);
+    schedule.first_sample = PassSchedule::kUnguidedSamples + schedule.trained;
+    schedule.ramp = weight_ramp(inputs_.settings, slot.method);
+    return schedule;
 }
 
 /// The number of passes from the present one on, at most `most`, between which nothing changes but the number of the sample.
 std::uint32_t FilmRenderer::equal_passes(FilmSlot slot, std::uint32_t most) const {
     const FilmProgress& film = films_[slot];
     if (slot.view != View::Beauty || film.is_under_way()) return 1;
-    const bool chooses = guiding_.chooses(slot);
     const bool learns = learns_from(slot) && film.is_guided && !fields_.is_frozen(slot.method);
-    if (!learns && !chooses) return most;
     const std::uint64_t left = learns ? inputs_.settings.learn_passes - fields_.trained_passes(slot.method) : most;
-    const auto is_equal = [&](std::uint32_t pass) {
-        if (chooses && film.guiding.is_due_before(pass)) return false;
+    const PassSchedule numbers = schedule(slot);
+    const auto is_equal = [&](std::uint32_t passes) {
+        const std::uint32_t pass = film.passes + passes;
+        const auto has_role = [&](std::uint32_t one) { return guiding_.role_of(slot, film, one) != PassRole::None; };
+        if (has_role(pass - 1) || has_role(pass) || numbers.weight_of(pass) != numbers.weight_of(pass - 1))
+            return false;
         return !learns || (!fields_.is_update_due(slot.method, pass) &&
                            fields_.is_trained_by_pass(slot.method, pass) == film.trains);
     };
     std::uint32_t passes = 1;
-    while (passes < most && passes < left && is_equal(film.passes + passes)) ++passes;
+    while (passes < most && passes < left && is_equal(passes)) ++passes;
     return passes;
 }
 
@@ -158,8 +165,9 @@ bool FilmRenderer::render_parts_before(FilmSlot slot, std::uint32_t pixel, const
 std::uint32_t FilmRenderer::end_of_part(FilmSlot slot) const {
     const FilmProgress& film = films_[slot];
     const std::uint32_t pixels = inputs_.pixel_count();
-    const bool trains = learns_from(slot) && film.trains;
-    if (!trains || guiding_.warms_up(slot) || fields_.progress(slot.method).passes > 0) return pixels;
+    const bool is_young =
+        fields_.progress(slot.method).passes == 0 || (film.is_guided && film.guiding.is_warm_up(film.passes));
+    if (!film.trains || !is_young) return pixels;
     return end_of_first_part(film.next_pixel, pixels, static_cast<std::uint32_t>(fields_.placement().count()));
 }
 
@@ -167,9 +175,9 @@ std::uint32_t FilmRenderer::end_of_part(FilmSlot slot) const {
 PassRequest FilmRenderer::pass_request(FilmSlot slot, MethodId method, const StopFlag* stop) const {
     const RenderSettings& settings = inputs_.settings;
     const FilmProgress& film = films_[slot];
+    const PassSchedule numbers = schedule(slot);
     PathSettings path = path_settings(settings, method);
     if (!film.runs.empty()) path.sequences = film.runs.back().sequences;
-    const bool is_ramped = learns_from(slot) && guiding_.first_passes_are_noisy(slot, film);
     return {.slot = slot,
             .is_guided = method == slot.method,
             .trains = film.trains,
@@ -179,9 +187,9 @@ PassRequest FilmRenderer::pass_request(FilmSlot slot, MethodId method, const Sto
             .mixture = mixture_of(settings, method),
             .learning = settings.field.learning,
             // Passes of a heat map replace one another: they use the same points, so that borders do not flicker.
-            .sample = is_heat_map(slot.view) ? 0 : sample_number(slot),
+            .sample = is_heat_map(slot.view) ? 0 : numbers.sample_of(film.passes),
             .passes = film.passes + 1,
-            .weights = is_ramped ? pass_weights(settings, slot.method) : PassWeights{},
+            .schedule = slot.view == View::Beauty ? numbers : PassSchedule{},
             .stop = stop};
 }
 
@@ -192,7 +200,7 @@ void FilmRenderer::render_part(FilmSlot slot, std::uint32_t end, const StopFlag*
     request.first_pixel = film.next_pixel;
     request.end_pixel = end;
     request.most_passes = most_passes;
-    if (guiding_.measures(slot, film)) request.use = SampleUse::Measured;
+    guiding_.shape(slot, film, request);
     const PassCounters counters = backend().run_pass(request);
     film.render_seconds += watch.seconds();
     film.counters += counters;
@@ -220,9 +228,11 @@ void FilmRenderer::finish_pass(FilmSlot slot) {
 void FilmRenderer::finish_learning_pass(FilmSlot slot) {
     const Stopwatch watch;
     FilmProgress& film = films_[slot];
-    const bool is_due = guiding_.trains_rarely(film) || fields_.is_update_due(slot.method, film.passes);
+    // Where few passes train, each is followed by an update.
+    const bool is_rare = !film.guiding.pays() || film.guiding.is_warm_up(film.passes - 1);
     try {
-        if (fields_.finish_pass(slot.method, film.is_guided && film.trains, is_due)) films_.clear(View::Voronoi);
+        if (fields_.finish_pass(slot.method, film.trains, is_rare || fields_.is_update_due(slot.method, film.passes)))
+            films_.clear(View::Voronoi);
     } catch (...) {
         if (!fields_.placement().is_placed()) {
             clear();

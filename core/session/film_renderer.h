@@ -34,6 +34,8 @@ public:
 
     const std::shared_ptr<FilmNumbers>& numbers() const { return films_.numbers(); }
     const FilmProgress& progress(FilmSlot slot) const { return films_[slot]; }
+    /// Of the passes of a film.
+    PassSchedule schedule(FilmSlot slot) const;
     /// Empty before the film is allocated.
     FilmReading read(FilmSlot slot) const;
     FilmReading read_halves(FilmSlot slot) const;
@@ -63,7 +65,7 @@ private:
     void prepare(FilmSlot slot);
     bool needs_precompute(FilmSlot slot) const;
     Progress precompute(FilmSlot slot, const StopFlag* stop);
-    std::optional<Progress> begin_pass(FilmSlot slot, const StopFlag* stop);
+    std::optional<Progress> begin_pass(FilmSlot slot);
     void begin_run_if_due(FilmSlot slot);
 
     Progress render_passes(FilmSlot slot, const StopFlag* stop, std::uint32_t most);
@@ -71,7 +73,6 @@ private:
     void render_part(FilmSlot slot, std::uint32_t end, const StopFlag* stop, std::uint32_t most_passes = 1);
     std::uint32_t end_of_part(FilmSlot slot) const;
     std::uint32_t equal_passes(FilmSlot slot, std::uint32_t most) const;
-    std::uint32_t sample_number(FilmSlot slot) const;
     PassRequest pass_request(FilmSlot slot, MethodId method, const StopFlag* stop) const;
     void note_escapes(FilmSlot slot, const PassCounters& counters);
     void finish_pass(FilmSlot slot);

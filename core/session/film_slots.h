@@ -18,8 +18,8 @@ public:
         int height = 0;
         Pixels pixels;  ///< [row][column]; none until the film was first reset
 
-        FilmView view(PassWeights weights = {}) {
-            return {view_of(pixels), static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height), weights};
+        FilmView view(std::uint32_t weight = 1) {
+            return {view_of(pixels), static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height), weight};
         }
     };
 

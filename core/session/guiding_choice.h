@@ -1,10 +1,11 @@
 // The choice between guided paths and paths of the baseline method for the passes of one film, by the relative variance of single
-// paths. It is made a few times from paths that both methods trace against the same means, and never by a clock, so that a picture can be
-// reproduced (docs/theory.md, "Guide or not").
+// paths. All passes stay in the picture. The choice is made a few times, from passes by both methods against the same means, and never by
+// a clock, so that a picture can be reproduced (docs/theory.md, "Guide or not").
 #pragma once
 
 #include <optional>
 
+#include "core/kernel/film/pass_schedule.h"
 #include "core/kernel/integrator/path.h"
 
 namespace pl {
@@ -40,80 +41,63 @@ private:
     double paths_ = 0.0;
 };
 
-/// Paths of a part of the pixels, which never come to the picture: they measure a method, or train the field.
-enum class Trial : std::uint32_t { None, Baseline, Guided };
+/// What a pass is for, besides the picture.
+enum class PassRole : std::uint32_t {
+    None,      ///< by the method that was chosen
+    Training,  ///< paths of the baseline train the field, and make the means that both methods are measured against
+    Baseline,  ///< paths of the baseline are measured
+    Guided,    ///< guided paths are measured
+};
 
-/// A film decides before its first pass, if it warms up, and once more before a later one. Both methods are measured in the last four
-/// passes before the decision; in a warm-up, whose rounds have the same course, four samples of each measured pixel make the means, then
-/// both methods are measured four times.
+/// A film of an unknown field begins with a warm-up: passes that train, passes by the baseline, guided passes, as many of each, and then
+/// decides. Later it asks again by as many passes of the method that it has not chosen and of the method that it has, and decides anew.
+/// Which passes these are, and their weights, depends on their numbers alone: PassSchedule.
 class GuidingChoice {
 public:
-    static constexpr std::uint32_t kMeasured = 4;  ///< passes, or rounds of a warm-up
-    /// The pass that is decided about; of a warm-up, its number of rounds.
-    static constexpr std::uint32_t kDecision = 8;
-    /// The same for a film whose warm-up gave guiding up: earlier, trials of guided paths would take the time of passes that a short film lacks.
-    static constexpr std::uint32_t kLateDecision = 64;
+    /// Begins the film. `is_known`: the field has been trained.
+    void begin_film(std::uint32_t pixels, bool is_known);
+    /// The choice for another film with the same field: the belief is kept until it is measured again.
+    GuidingChoice restarted() const;
 
-    bool is_measured(std::uint32_t pass) const { return pass + kMeasured >= decision_ && pass < decision_; }
-    /// Whether trials or a decision may be due before this pass.
-    bool is_due_before(std::uint32_t pass) const { return pass == 0 || is_measured(pass) || pass == decision_; }
-    /// The least ratio of variances at which guiding pays. `guidance`: the time of guidance at a vertex, relative to a table.
-    static double least_ratio(double guidance);
-
-    /// Whether trials of a warm-up are due before the first pass: for a field that is unknown.
-    bool is_warming_up() const { return !belief_; }
-    /// The next trial of the warm-up. The first rounds are of the baseline, whose paths must train a field that learns; each further one,
-    /// which is measured, is of the baseline and then of guided paths.
-    Trial warm_up_trial() const;
-    std::uint32_t warm_up_round() const;
-    bool is_round_measured() const { return warm_up_round() + kMeasured >= kDecision; }
-    void measure_warm_up(const PassCounters& counters, double least_ratio);
-    /// Whether guided paths of the warm-up brought light far more often than paths of the baseline: rare bright paths are then most of
-    /// the variance of the first guided passes.
-    bool found_hidden_light() const { return found_hidden_light_; }
+    /// The least ratio of variances at which guiding pays, after a warm-up and after a later question. `guidance`: the time of guidance at a
+    /// vertex, relative to a table.
+    static double least_ratio(double guidance, bool is_warm_up);
 
     /// Whether passes are guided from now on, as far as is known.
     bool pays() const { return belief_.value_or(true); }
-    /// The trial that is due before the pass of this number, of the method that passes do not use.
-    Trial trial_before(std::uint32_t pass) const;
-    void measure_trial(std::uint32_t pass, const PassCounters& counters);
-    /// After a pass that is_measured(). The last one decides.
-    void measure_pass(std::uint32_t pass, const PassCounters& counters, double least_ratio);
+    /// Of passes by this choice.
+    const PassSchedule& schedule() const { return schedule_; }
+    bool is_warm_up(std::uint32_t pass) const { return pass < schedule_.warm_up; }
 
-    /// The choice for another film with the same field: the belief is kept until it is measured again.
-    GuidingChoice restarted() const;
-    /// Guides from the first pass on, without a warm-up, unless guiding is known not to pay.
-    void begin_guided() { belief_ = pays(); }
+    PassRole role_of(std::uint32_t pass) const;
+    bool is_guided(std::uint32_t pass) const;
+    /// The pixels whose mean a sample of this pass is measured against.
+    MeanBlock block_of(std::uint32_t pass) const;
+    /// Takes the measurements of a pass that has ended, and decides if it is the last one of a question.
+    void finish_pass(std::uint32_t pass, const PassCounters& counters, double guidance);
+
+    /// Relative variance of a path of the baseline, over the relative variance of a guided path. Empty before the first decision of this film.
+    std::optional<double> variance_ratio() const { return ratio_; }
 
     /// Calls fn(value) for every value of its state, for checkpoints. `choice` may be const.
     template <class Choice, class Fn>
     static void each_value(Choice& choice, Fn&& fn) {
         PathNoise::each_value(choice.guided_, fn);
         PathNoise::each_value(choice.baseline_, fn);
-        fn(choice.warm_up_trials_);
-        fn(choice.last_trial_);
-        fn(choice.decision_);
+        fn(choice.schedule_.each);
+        fn(choice.schedule_.warm_up);
         fn(choice.ratio_);
         fn(choice.belief_);
-        fn(choice.found_hidden_light_);
     }
-
-    /// Relative variance of a path of the baseline, over the relative variance of a guided path. Empty before the first decision of this film.
-    std::optional<double> variance_ratio() const { return ratio_; }
 
 private:
     void decide(double least_ratio);
-    /// Whether guided paths bring light far more often, so that the baseline's variance is only the variance of the light that it has found.
-    bool finds_hidden_light() const;
 
     PathNoise guided_;
     PathNoise baseline_;
-    std::uint32_t warm_up_trials_ = 0;
-    std::uint32_t last_trial_ = 0;        ///< the pass after it; 0 before the first
-    std::uint32_t decision_ = kDecision;  ///< the pass that is decided about
+    PassSchedule schedule_{};
     std::optional<double> ratio_;
     std::optional<bool> belief_;  ///< whether guiding pays
-    bool found_hidden_light_ = false;
 };
 
 }  // namespace pl

@@ -18,12 +18,15 @@ struct PassRun {
     VertexSequences sequences{};
     bool is_guided = true;  ///< also for methods without a field
     bool trains = false;    ///< the passes train the field
+    bool decides = false;   ///< the passes decide about guiding
 
-    bool is_like(const PassRun& other) const { return is_guided == other.is_guided && trains == other.trains; }
+    bool is_like(const PassRun& other) const {
+        return is_guided == other.is_guided && trains == other.trains && decides == other.decides;
+    }
     /// Sequences that no other run has begun.
     VertexSequences own_sequences() const { return {2 * first_sample, first_sample}; }
-    /// The rest of the sequences of the last run before this one that is like it, if guiding has not changed since. Own ones where
-    /// the halves of the film would exchange theirs.
+    /// The rest of the sequences of the last run before this one that is like it, if the choice of guiding has not changed since. Own
+    /// ones where the halves of the film would exchange theirs.
     VertexSequences sequences_behind(std::span<const PassRun> runs) const;
 
     friend bool operator==(const PassRun&, const PassRun&) = default;
@@ -31,7 +34,8 @@ struct PassRun {
 
 inline VertexSequences PassRun::sequences_behind(std::span<const PassRun> runs) const {
     std::uint32_t end = first_pass;
-    for (std::size_t i = runs.size(); i-- > 0 && runs[i].is_guided == is_guided; end = runs[i].first_pass) {
+    for (std::size_t i = runs.size(); i-- > 0 && (runs[i].decides || runs[i].is_guided == is_guided);
+         end = runs[i].first_pass) {
         if (!is_like(runs[i])) continue;
         const VertexSequences& last = runs[i].sequences;
         const std::uint32_t drawn = runs[i].first_sample + (end - runs[i].first_pass) - last.first_sample;
@@ -45,9 +49,9 @@ inline VertexSequences PassRun::sequences_behind(std::span<const PassRun> runs) 
 struct PassReplay {
     int width = 0;
     int height = 0;
-    std::uint32_t first_sample = 0;  ///< number of the first pass
-    std::uint32_t samples = 0;       ///< complete passes
-    std::uint32_t next_pixel = 0;    ///< of the pass under way: pixels before it have one more sample
+    PassSchedule schedule{};
+    std::uint32_t samples = 0;     ///< complete passes
+    std::uint32_t next_pixel = 0;  ///< of the pass under way: pixels before it have one more sample
     /// Invalid samples of each pixel, as the film counts them; empty if there are none. [row][column]
     std::vector<std::uint32_t> invalid{};
 

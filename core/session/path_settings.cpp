@@ -32,9 +32,9 @@ PathSettings path_settings(const RenderSettings& settings, MethodId method) {
             .next_event = settings.next_event ? 1u : 0u};
 }
 
-PassWeights pass_weights(const RenderSettings& settings, MethodId method) {
-    if (!info_of(method).learns) return {};
-    return {.ramp = settings.next_event ? kLightSampledWeightRamp : kWeightRamp};
+std::uint32_t weight_ramp(const RenderSettings& settings, MethodId method) {
+    if (!info_of(method).learns) return 1;
+    return settings.next_event ? kLightSampledWeightRamp : kWeightRamp;
 }
 
 PathSettings probe_settings(const RenderSettings& settings, MethodId method) {

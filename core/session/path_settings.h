@@ -1,7 +1,6 @@
 // Makes the path settings of kernels from the user's settings, with the threshold of roulette of each method.
 #pragma once
 
-#include "core/kernel/film/pass_weights.h"
 #include "core/kernel/integrator/path.h"
 #include "core/session/settings.h"
 
@@ -9,8 +8,8 @@ namespace pl {
 
 PathSettings path_settings(const RenderSettings& settings, MethodId method);
 
-/// The weights of a method's passes in a picture, by the number of passes that its field was trained by.
-PassWeights pass_weights(const RenderSettings& settings, MethodId method);
+/// PassSchedule::ramp of a method's pictures: 1 if it does not learn while it renders.
+std::uint32_t weight_ramp(const RenderSettings& settings, MethodId method);
 
 /// Paths of probes: stratified numbers of their own, and the roulette of a method without a field.
 PathSettings probe_settings(const RenderSettings& settings, MethodId method);

@@ -178,6 +178,7 @@ PassReplay Session::pass_replay(FilmSlot slot) const {
     const Placement& placement = fields_->placement();
     PassReplay replay{.width = settings().width,
                       .height = settings().height,
+                      .schedule = films_->schedule(slot),
                       .samples = film.passes,
                       .next_pixel = film.next_pixel,
                       .scene = packed_scene(),
@@ -190,9 +191,6 @@ PassReplay Session::pass_replay(FilmSlot slot) const {
         info_of(slot.method).uses_field && placement.is_placed() && inputs_->backend->has_field(slot.method);
     if (!has_field) return replay;  // or nothing is rendered yet
     if (info_of(slot.method).learns) {
-        // The field counts the passes of all pictures and back ends; the last passes belong to this picture.
-        const std::uint64_t passes = fields_->progress(slot.method).passes;
-        replay.first_sample = static_cast<std::uint32_t>(std::max(passes, std::uint64_t{film.passes}) - film.passes);
         replay.has_moving_tables = true;
         replay.repeats_training = settings().field.learning.target == LearningTarget::ExpectedSarsa;
     }

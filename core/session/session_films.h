@@ -24,11 +24,9 @@ struct FilmProgress {
 
     GuidingChoice guiding{};
     bool is_guided = true;    ///< the pass under way, or the last one; also for methods without a field
-    bool trains = true;       ///< the pass under way, or the last one, trains the field if its method learns
-    PassCounters measured{};  ///< since guiding was last chosen
+    bool trains = false;      ///< the pass under way, or the last one, trains the field
+    PassCounters measured{};  ///< since the pass under way began
     std::uint32_t unguided_passes = 0;
-    PassCounters trial{};  ///< of the trial under way
-    std::uint64_t trial_paths = 0;
     std::vector<PassRun> runs{};     ///< of all passes, the one under way included
     std::uint64_t updates_seen = 0;  ///< FieldProgress::updates at the beginning of the last run
 

@@ -54,8 +54,7 @@ struct FieldStatus {
 struct GuidingStatus {
     bool pays = true;                      ///< the next passes are guided, as far as is known
     std::optional<double> variance_ratio;  ///< GuidingChoice::variance_ratio()
-    std::uint32_t unguided_passes = 0;
-    std::uint64_t trial_paths = 0;  ///< of the warm-up and of trials, which are no part of the picture
+    std::uint32_t unguided_passes = 0;     ///< of the film
 };
 
 struct Snapshot {

@@ -13,7 +13,7 @@ public:
     void reset(FilmSlot slot, int width, int height, int threads);
 
     /// The following functions throw Error if the film was never reset.
-    FilmView view(FilmSlot slot, PassWeights weights) { return films_.existing(slot).view(weights); }
+    FilmView view(FilmSlot slot, std::uint32_t weight) { return films_.existing(slot).view(weight); }
     FilmReading read(FilmSlot slot, int threads) const;
     FilmReading read_halves(FilmSlot slot, int threads) const;
     std::vector<std::uint32_t> invalid_samples(FilmSlot slot) const;

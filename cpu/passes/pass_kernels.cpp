@@ -94,7 +94,7 @@ template <FeatureSet F>
         const std::uint32_t count = std::min(kNotedPixels, range.end - begin);
         std::uint32_t fresh = 0;
         for (std::uint32_t i = 0; i < count; ++i) {
-            const std::uint32_t pixel = pass.subset.pixel(begin + i);
+            const std::uint32_t pixel = begin + i;
             const EmissionSeen& seen = pass.film.pixels[pixel].emission;
             was_refined[i] = is_refined(seen);
             if (seen.varies == 0) noted[fresh++] = pixel;
@@ -102,7 +102,7 @@ template <FeatureSet F>
         tracer.note(pass.context, pass.film, {noted, fresh});
         traced += fresh;
         for (std::uint32_t i = 0; i < count; ++i) {
-            const std::uint32_t pixel = pass.subset.pixel(begin + i);
+            const std::uint32_t pixel = begin + i;
             const EmissionWork work = emission_work(pass.context, pass.film.pixels[pixel].emission, was_refined[i]);
             refine_samples<F>(pass.context, tracer, pass.film, pixel, work);
             traced += work.all_rays();
@@ -135,7 +135,7 @@ PassCounters run_emission_pass(const EmissionPass& pass) {
             total.fetch_add(traced, std::memory_order_relaxed);
         });
     };
-    if (pass.context.passes == kMarkingPass && pass.setup.paths.begin == 0 && pass.setup.paths.end > 0) {
+    if (pass.context.looks() == kMarkingLook && pass.setup.paths.begin == 0 && pass.setup.paths.end > 0) {
         constexpr std::uint32_t kLightsPerClaim = 16;
         ChunkQueue lights(0, scene.lights.count, kLightsPerClaim);
         trace_all(lights, [&](BatchedRays<F>& tracer, IndexRange range) {
@@ -144,11 +144,11 @@ PassCounters run_emission_pass(const EmissionPass& pass) {
             });
         });
     }
-    ChunkQueue pixels = pass.setup.chunks(pass.subset.count(pass.film.pixels.count));
+    ChunkQueue pixels = pass.setup.chunks(pass.film.pixels.count);
     trace_all(pixels, [&](BatchedRays<F>& tracer, IndexRange range) {
-        if (notes_emission(pass.context.passes)) return note_and_refine<F>(tracer, range, pass);
-        return trace_range(tracer, range, [&](BatchedRays<F>& rays, std::uint32_t number) {
-            return refine_emission<F>(pass.context, scene, rays, pass.film, pass.subset.pixel(number));
+        if (notes_emission(pass.context.looks())) return note_and_refine<F>(tracer, range, pass);
+        return trace_range(tracer, range, [&](BatchedRays<F>& rays, std::uint32_t pixel) {
+            return refine_emission<F>(pass.context, scene, rays, pass.film, pixel);
         });
     });
     PassCounters counters;

@@ -22,8 +22,7 @@ struct PicturePass {
     Camera camera;
     std::uint32_t sample = 0;
     FilmView film;
-    SampleUse use = SampleUse::Film;
-    PixelSubset subset{};
+    MeanBlock block{};
 };
 
 /// Arguments of a probe kernel.
@@ -35,13 +34,12 @@ struct ProbePass {
 };
 
 /// Arguments of an emission kernel, which traces further camera rays for the emission of lamps whose border crosses a pixel, after a pass
-/// has added its samples; setup.paths numbers the pixels of the subset that it visits.
+/// has added its samples; setup.paths numbers the pixels that it visits.
 struct EmissionPass {
     PassSetup setup;
     const BatchTracer& tracer;
     EmissionContext context;
     FilmView film;
-    PixelSubset subset{};
 };
 
 /// Arguments of a view kernel, which traces one camera ray per pixel to the first surface. `shown` is empty for views without a field.
@@ -72,7 +70,7 @@ template <FeatureSet F, Method M>
 PassCounters run_picture_pass(const PicturePass& pass) {
     std::conditional_t<TableGuided<M>, LookedUpAhead<M>, M> method;
     configure_method(method, pass.field, pass.settings);
-    const PictureWork<F, decltype(method)> work{pass.camera, pass.sample, pass.film, pass.use, pass.subset};
+    const PictureWork<F, decltype(method)> work{pass.camera, pass.sample, pass.film, pass.block};
     return run_paths<F>(pass.setup, pass.tracer, method, work);
 }
 

@@ -32,7 +32,6 @@ struct StartKey {
     Stream stream = Stream::Picture;
     Purpose purpose = Purpose::Pixel;
     std::uint32_t sample = 0;
-    PixelSubset subset{};             ///< path numbers are numbers of its pixels
     const Camera* pinhole = nullptr;  ///< of which camera rays are made for all paths of a chunk
     PixelGrid grid{};
 };
@@ -60,7 +59,7 @@ private:
         if (chunk_.empty()) return false;
         first_ = chunk_.begin;
         for (std::uint32_t i = 0; i < kPathChunk; ++i) {
-            counters_[i / kGroupSize].pixel[i % kGroupSize] = key_.subset.pixel(first_ + i);
+            counters_[i / kGroupSize].pixel[i % kGroupSize] = first_ + i;
             counters_[i / kGroupSize].sample[i % kGroupSize] = key_.sample;
         }
         kernels_.draw({key_.seed, key_.stream, key_.purpose}, counters_, uniforms_, kGroups);
@@ -108,27 +107,25 @@ concept PathWork = requires(const W& work, const PathSettings& path, const PathS
     { work.finish(state, counters) } -> std::same_as<bool>;
 };
 
-/// One path per pixel of a subset; adds its radiance to a film.
+/// One path per pixel; adds its radiance to a film.
 template <FeatureSet F, class M>
 struct PictureWork {
     Camera camera;
     std::uint32_t sample = 0;
     FilmView film;
-    SampleUse use = SampleUse::Film;
-    PixelSubset subset{};
+    MeanBlock block{};
 
-    std::uint32_t count() const { return subset.count(film.pixels.count); }
+    std::uint32_t count() const { return film.pixels.count; }
     StartKey start_key(const PathSettings& path) const {
         return {.seed = path.seed,
                 .stream = path.stream,
                 .purpose = Purpose::Pixel,
                 .sample = sequence_of(sample),
-                .subset = subset,
                 .pinhole = is_pinhole() ? &camera : nullptr,
                 .grid = grid()};
     }
     PathState<F, M> begin(const PathStart& start) const {
-        const std::uint32_t pixel = subset.pixel(start.number);
+        const std::uint32_t pixel = start.number;
         prefetch(pixel);  // films exceed the cache
         if (is_pinhole())
             return begin_path<F, M>(Ray{.origin = camera.eye, .direction = start.direction}, grid(), pixel);
@@ -136,7 +133,7 @@ struct PictureWork {
     }
     void prefetch(std::uint32_t pixel) const { __builtin_prefetch(&film.pixels[pixel], 1); }
     bool finish(const PathState<F, M>& state, PassCounters& counters) const {
-        return use_sample(film, state.pixel, state.radiance, sample, use, counters.variance);
+        return add_sample(film, state.pixel, state.radiance, sample, block, counters.variance);
     }
 
 private:

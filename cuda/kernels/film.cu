@@ -12,9 +12,8 @@ __global__ void __launch_bounds__(kThreadsPerBlock)
     const std::uint32_t i = thread_number();
     VarianceSums sums;
     if (i < samples.radiance.count)
-        (void)use_sample(film, samples.subset.pixel(samples.first + i), samples.radiance[i], samples.pass,
-                         samples.use, sums);
-    if (samples.use == SampleUse::Film) return;
+        (void)add_sample(film, samples.first + i, samples.radiance[i], samples.pass, samples.block, sums);
+    if (!samples.block.is_measured()) return;
     VarianceSums& totals = samples.counters->variance;
     add_up(totals.sum, sums.sum);
     add_up(totals.samples, sums.samples);

@@ -93,8 +93,7 @@ struct PixelPaths {
     Camera camera;
     PixelGrid grid;              ///< of the first pass
     std::uint32_t first = 0;     ///< number of the first path
-    std::uint32_t per_pass = 1;  ///< paths of a pass: the pixels of the subset
-    PixelSubset subset{};
+    std::uint32_t per_pass = 1;  ///< paths of a pass: the pixels
     Span<Vec3f> radiance;
 };
 
@@ -136,8 +135,7 @@ struct EmissionSetup {
     SceneView scene;
     EmissionContext context;
     FilmView film;
-    PathRange range{};  ///< numbers of pixels of the subset
-    PixelSubset subset{};
+    PathRange range{};  ///< of pixels
     PassCounters* counters = nullptr;
 };
 using EmissionKernel = void (*)(EmissionSetup);
@@ -162,13 +160,12 @@ struct FilmTotals {
 /// The samples of a launch in one pass. Pixels that see a lamp are known by the launches before it in the stream.
 struct LaunchSamples {
     Span<const Vec3f> radiance;
-    std::uint32_t first = 0;  ///< number of the first one within the subset
+    std::uint32_t first = 0;  ///< pixel of the first one
     std::uint32_t pass = 0;
-    PixelSubset subset{};
-    SampleUse use = SampleUse::Film;
+    MeanBlock block{};
     PassCounters* counters = nullptr;  ///< its variance is incremented
 };
-/// kAddSamples puts the samples of a launch to their use, kSetSamples replaces the samples of the film. One thread
+/// kAddSamples adds the samples of a launch, kSetSamples replaces the samples of the film. One thread
 /// per sample.
 using AddSamplesKernel = void (*)(FilmView film, LaunchSamples samples);
 extern const AddSamplesKernel kAddSamples;

@@ -18,7 +18,7 @@ namespace pl::cuda {
 template <FeatureSet F, class M>
 __device__ inline PathState<F, M> begin(const PixelPaths& paths, const PathSettings& settings, std::uint32_t number) {
     const std::uint32_t pass = number / paths.per_pass;
-    const std::uint32_t pixel = paths.subset.pixel(number - pass * paths.per_pass);
+    const std::uint32_t pixel = number - pass * paths.per_pass;
     const PixelGrid grid{paths.grid.width, paths.grid.height, paths.grid.sample + pass};
     return begin_path<F, M>(paths.camera, grid, pixel, pixel_start(settings, pixel, grid.sample));
 }
@@ -30,7 +30,7 @@ __device__ inline PathState<F, M> begin(const ProbePaths& paths, const PathSetti
 template <FeatureSet F, class M>
 __device__ inline void finish(const PixelPaths& paths, const PathState<F, M>& state, MethodCounters&) {
     const std::uint32_t pass = state.sample - paths.grid.sample;
-    paths.radiance[pass * paths.per_pass + paths.subset.number(state.pixel) - paths.first] = state.radiance;
+    paths.radiance[pass * paths.per_pass + state.pixel - paths.first] = state.radiance;
 }
 template <FeatureSet F>
 __device__ inline void finish(const ProbePaths& paths, const PathState<F, ProbeMethod>& state,

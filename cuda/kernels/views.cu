@@ -56,7 +56,7 @@ __global__ void __launch_bounds__(kThreadsPerBlock) refine_film(const __grid_con
     std::uint32_t pixel = 0;
     EmissionWork work;
     if (number < count) {
-        pixel = setup.subset.pixel(setup.range.first + number);
+        pixel = setup.range.first + number;
         work = find_emission_work<kFeatures>(setup.context, setup.scene, own_rays, setup.film, pixel,
                                              counters.path.emission_rays);
         counters.path.emission_rays += work.all_rays();
@@ -67,9 +67,9 @@ __global__ void __launch_bounds__(kThreadsPerBlock) refine_film(const __grid_con
         const std::uint32_t served = of_lane(pixel, lane);
         refine_samples<kFeatures>(setup.context, rays, served,
                                   {of_lane(work.samples, lane), of_lane(work.rays, lane)},
-                                  [&](std::uint32_t sample, Vec3f correction) {
+                                  [&](std::uint32_t sample, std::uint32_t weight, Vec3f correction) {
                                       if (lane_number() == lane)
-                                          correct_sample(setup.film, served, correction, sample);
+                                          correct_sample(setup.film, served, correction, sample, weight);
                                   });
     }
     add_up(*setup.counters, counters);

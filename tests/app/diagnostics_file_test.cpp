@@ -81,8 +81,9 @@ TEST_CASE("diagnostics: a PNG is dark but for the marks, and tells what they are
 TEST_CASE(
     "diagnostics: misses are found, paths may leave an open scene, and clamped records are told by who learns") {
     const TempDir folder;
-    const json misses = diagnostics_of("cornell", folder / "t.pfm",
-                                       {"--method", "precomputed", "--volumes", "1", "--bins", "16", "--spp", "2"});
+    const json misses = diagnostics_of(
+        "cornell", folder / "t.pfm",
+        {"--method", "precomputed", "--guiding", "always", "--volumes", "1", "--bins", "16", "--spp", "2"});
     CHECK(misses["lookup_misses"] > 100);
     CHECK(misses["found"]["lookup_misses"]["count"] == misses["lookup_misses"]);
     CHECK(misses["closed"] == false);

@@ -94,7 +94,7 @@ namespace {
 using nlohmann::json;
 
 ProgramResult traced_gain(const TempDir& folder, const std::string& gain, const Arguments& more) {
-    return run_program(joined({"trace", "door", "--size", "64x48", "--spp", "4", "--gain", folder / gain}, more));
+    return run_program(joined({"trace", "door", "--size", "64x48", "--spp", "8", "--gain", folder / gain}, more));
 }
 
 }  // namespace

@@ -141,7 +141,7 @@ TEST_CASE("checkpoints that do not fit are refused") {
                   "scene hash: expected");
     check_refused(3, resume("cut"), "cut: damaged checkpoint: expected");
     check_refused(3, resume("damaged"), "damaged: damaged checkpoint: expected the checksum");
-    check_refused(3, resume("version"), "version: checkpoint of another version: expected 10, got 99");
+    check_refused(3, resume("version"), "version: checkpoint of another version: expected 11, got 99");
     check_refused(3, resume("text"), "text: not a checkpoint");
     check_refused(3, resume("none"), "no such file");
     check_refused(2, render_refined(folder / "x.pfm", 2, {"--checkpoint-every", "3"}), "expected --checkpoint FILE");
@@ -156,7 +156,7 @@ using nlohmann::json;
 const std::vector<std::string> kLearningMethods{"precomputed", "reinforcement"};
 
 Arguments render_door(const std::string& output, const Arguments& more) {
-    return joined({"render", "door", "-o", output, "--size", "32x32", "--spp", "4"}, more);
+    return joined({"render", "door", "-o", output, "--size", "32x32", "--spp", "4", "--guiding", "always"}, more);
 }
 
 /// Few volumes, so that tables have samples after a few passes.

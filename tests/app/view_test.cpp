@@ -115,9 +115,9 @@ TEST_CASE("the command of a picture that is not finished makes it with its sampl
 
 TEST_CASE("the command of a picture that began with a learned field continues from that field's file") {
     const TempDir folder;
-    const ProgramResult result =
-        run_script(folder, "1 tap 3\n2 wait learned >= 2\n3 tap r\n4 wait shown_spp == 2\n5 tap C ctrl\n"
-                           "6 wait message ~ continues from the field\n7 wait busy == no\n8 quit\n");
+    const ProgramResult result = run_script(
+        folder, "1 tap 3\n2 wait learned >= 2\n3 tap r\n4 wait learned >= 4\n4 wait shown_spp == 2\n5 tap C ctrl\n"
+                "6 wait message ~ continues from the field\n7 wait busy == no\n8 quit\n");
     CAPTURE(result.err);
     REQUIRE(result.code == 0);
     const std::filesystem::path field = only_file(folder, ".field");

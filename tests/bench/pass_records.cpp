@@ -29,11 +29,10 @@ struct Recording {
 /// Takes single passes out of the mean of all of them.
 class PassPictures {
 public:
-    PassPictures(std::size_t values, PassWeights weights) : sums_(values, 0.0), weights_(weights) {}
+    explicit PassPictures(std::size_t values) : sums_(values, 0.0) {}
 
-    /// The picture of the next pass, from the mean after it.
-    std::vector<float> next(const std::vector<Vec3f>& mean) {
-        const auto own = static_cast<double>(weights_.of(passes_++));
+    /// The picture of the next pass, which has this weight, from the mean after it.
+    std::vector<float> next(const std::vector<Vec3f>& mean, double own) {
         weight_ += own;
         std::vector<float> picture(sums_.size());
         for (std::size_t i = 0; i < sums_.size(); ++i) {
@@ -46,16 +45,14 @@ public:
 
 private:
     std::vector<double> sums_;
-    PassWeights weights_;
-    std::uint32_t passes_ = 0;
     double weight_ = 0.0;
 };
 
 void record(Session& session, const Recording& recording) {
     const RenderSettings& settings = session.settings();
-    PassPictures pictures(3 * film_pixels(settings.width, settings.height),
-                          pass_weights(settings, recording.slot.method));
+    PassPictures pictures(3 * film_pixels(settings.width, settings.height));
     std::ofstream file(recording.file, std::ios::binary);
+    const PassSchedule weights{.ramp = weight_ramp(settings, recording.slot.method)};
     double seconds = 0.0;
     std::uint64_t segments = 0;
     for (int pass = 0; pass < recording.passes; ++pass) {
@@ -65,7 +62,8 @@ void record(Session& session, const Recording& recording) {
         const std::array counts{spent - seconds, static_cast<double>(now.counters.path.segments - segments)};
         seconds = spent;
         segments = now.counters.path.segments;
-        const std::vector<float> picture = pictures.next(now.pixels);
+        const std::vector<float> picture =
+            pictures.next(now.pixels, weights.weight_of(static_cast<std::uint32_t>(pass)));
         file.write(reinterpret_cast<const char*>(counts.data()), sizeof counts);
         file.write(reinterpret_cast<const char*>(picture.data()),
                    static_cast<std::streamsize>(sizeof(float) * picture.size()));

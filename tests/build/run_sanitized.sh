@@ -86,10 +86,10 @@ done < <(files "$corpus/checkpoint")
 echo "$runs runs, $failed failed"
 
 # The interpreter is not sanitized: the sanitizers, and the exceptions that they watch, are loaded before it. What it keeps to its end are no
-# leaks.
+# leaks. Only other builds make the stub, by a module that needs no more than the interpreter.
 if [[ $module == ON ]]; then
     LD_PRELOAD="$(c++ -print-file-name=libasan.so) $(c++ -print-file-name=libstdc++.so)" ASAN_OPTIONS=detect_leaks=0 \
         PYTHONMALLOC=malloc PYTHONPATH="$build/python" PATHLIGHT_PROGRAM="$build/pathlight" \
-        "$python" -m pytest -q "$source/tests/python" || failed=$((failed + 1))
+        "$python" -m pytest -q "$source/tests/python" --deselect "$source/tests/python/test_module.py::test_the_stub_has_every_public_name" || failed=$((failed + 1))
 fi
 exit $((failed > 0))

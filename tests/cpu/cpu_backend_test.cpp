@@ -169,32 +169,6 @@ TEST_CASE("A stopped pass has done a prefix of the pixels, and can be resumed") 
     }
 }
 
-TEST_CASE("A pass over a subset of the pixels has their samples of the whole pass, in any phase") {
-    const Room room;
-    const FilmSlot slot{MethodId::Default, View::Beauty};
-    const std::vector<Vec3f> whole = whole_pass(room, slot);
-    for (const std::uint32_t phase : {0u, 2u}) {
-        const auto backend = with_empty_film(room, slot);
-        PassRequest request = pass_of(room, slot);
-        request.subset = {.step = 5, .phase = phase};
-        const std::uint32_t count = request.subset.count(kWidth * kHeight);
-        CHECK(backend->run_pass(request).paths == count);
-        std::vector<Vec3f> expected(whole.size(), Vec3f{kNan});
-        for (std::uint32_t number = 0; number < count; ++number) {
-            const std::uint32_t pixel = request.subset.pixel(number);
-            expected[pixel] = whole[pixel];
-        }
-        const std::vector<Vec3f> mean = backend->read_film(slot).mean;
-        std::uint32_t differing = 0;
-        for (std::uint32_t pixel = 0; pixel < whole.size(); ++pixel) {
-            const bool is_traced = !std::isnan(expected[pixel].x);
-            differing += is_traced && mean[pixel] != expected[pixel] ? 1 : 0;
-        }
-        CHECK(differing == 0);
-        CHECK(backend->read_film(slot).weight == count);
-    }
-}
-
 TEST_CASE("A pass in parts is the whole pass, and each part keeps to its pixels") {
     const Room room;
     for (const View view : {View::Beauty, View::Direct}) {

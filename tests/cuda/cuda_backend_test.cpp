@@ -122,11 +122,11 @@ TEST_CASE("A warm-up and the film after it have the bits of the CPU back end") {
     RenderSettings settings = small_settings(scene, {MethodId::Reinforcement, true}, 256, 256);
     settings.guiding = GuidingRule::Paying;
     Session expected = make_session(scene, settings);
-    render_passes(expected, 1);
+    render_passes(expected, 4);
     shim::reset();
     shim::set_threads(3);
     Session got = make_cuda_session(scene, settings);
-    render_passes(got, 1);
+    render_passes(got, 4);
     CHECK(same_state(state_of(got), state_of(expected)));
     CHECK(got.guiding_status(slot_of(got))->variance_ratio ==
           expected.guiding_status(slot_of(expected))->variance_ratio);
@@ -320,9 +320,9 @@ TEST_CASE("Paths that wait do not go on in a pass by another stream of random nu
                               .path = {},
                               .camera = make_camera(scene.camera, kWidth, kHeight)};
     StopFlag stop = false;
-    PassRequest warm_up = picture;
-    warm_up.path.stream = pl::Stream::WarmUp;
-    warm_up.stop = &stop;
+    PassRequest other = picture;
+    other.path.stream = pl::Stream::Inspection;
+    other.stop = &stop;
     const std::unique_ptr<RenderBackend> cpu = make_cpu_backend({.threads = 1});
     const std::unique_ptr<RenderBackend> cuda = make_cuda_backend(kShortLaunches);
     for (RenderBackend* backend : {cpu.get(), cuda.get()}) {
@@ -330,7 +330,7 @@ TEST_CASE("Paths that wait do not go on in a pass by another stream of random nu
         backend->reset_film(slot, kWidth, kHeight);
     }
     on_launch([&](int) { stop = true; });
-    CHECK(cuda->run_pass(warm_up).paths == 0);
+    CHECK(cuda->run_pass(other).paths == 0);
     on_launch({});
     CHECK(same_events(cuda->run_pass(picture), cpu->run_pass(picture)));
     CHECK(same_bits(cuda->read_film(slot).mean, cpu->read_film(slot).mean));

@@ -1,4 +1,4 @@
-// Shares of ranks: every pixel once, whatever the blocks, cuts and subsets.
+// Shares of ranks: every pixel once, whatever the blocks and cuts.
 #include "mpi/shares.h"
 
 #include <numeric>
@@ -51,8 +51,8 @@ TEST_CASE("A slow share becomes shorter, so that all take the same time") {
     shares.cover(1000);
     // 1 ms per 100 pixels in the first half, 3 ms in the second one.
     const Shares next = shares.balanced(std::vector<double>{5.0e-3, 15.0e-3});
-    CHECK(next.share(0, 0) == IndexRange{0, 666});
-    CHECK(next.share(0, 1) == IndexRange{666, 1000});
+    CHECK(next.share(0, 0) == IndexRange{0, 664});
+    CHECK(next.share(0, 1) == IndexRange{664, 1000});
     CHECK(shares.balanced(std::vector<double>{5.0e-3, 5.1e-3}) == shares);
     CHECK(shares.balanced(std::vector<double>{5.0e-6, 15.0e-6}) == shares);
     const Shares all_first = shares.balanced(std::vector<double>{0.0, 1.0});
@@ -78,22 +78,16 @@ TEST_CASE("Any times leave every pixel with one rank") {
     }
 }
 
-TEST_CASE("The numbers of a subset are shared out by their pixels") {
-    constexpr std::uint32_t kPixels = 1000;
-    for (const std::uint32_t step : {1u, 2u, 3u, 7u, 64u})
-        for (const std::uint32_t phase : {0u, 1u, 5u}) {
-            const PixelSubset subset{.step = step, .phase = phase % step};
-            std::uint32_t next = 0;
-            for (const IndexRange pixels :
-                 {IndexRange{0, 13}, IndexRange{13, 13}, IndexRange{13, 500}, IndexRange{500, kPixels}}) {
-                const IndexRange numbers = numbers_within(subset, pixels, kPixels);
-                REQUIRE(numbers.begin == next);
-                next = numbers.end;
-                for (std::uint32_t i = numbers.begin; i < numbers.end; ++i) {
-                    REQUIRE(subset.pixel(i) >= pixels.begin);
-                    REQUIRE(subset.pixel(i) < pixels.end);
-                }
-            }
-            CHECK(next == subset.count(kPixels));
+TEST_CASE("No cut divides a block of pixels that variances are measured against") {
+    for (const int ranks : {2, 3, 7})
+        for (const std::uint32_t pixels : {1000u, 61u * 47u, 300'001u}) {
+            Shares shares(ranks);
+            shares.cover(pixels);
+            std::vector<double> seconds(shares.blocks() * static_cast<std::size_t>(ranks), 1.0);
+            seconds.back() = 5.3;
+            for (const Shares& made : {shares, shares.balanced(seconds)})
+                for (int rank = 0; rank < ranks; ++rank)
+                    for (const IndexRange& range : made.shares_of(rank))
+                        CHECK(range.begin % MeanBlock::kMostPixels == 0);
         }
 }

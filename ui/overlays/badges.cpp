@@ -81,13 +81,11 @@ std::string whose(const ViewerModel& model, std::size_t side) {
 void add_guiding_badge(BadgeRow& row, const PublishedFrame& frame, const std::string& run) {
     const auto& guiding = frame.snapshot.guiding;
     if (!guiding || !guiding->variance_ratio) return;
-    const std::string shared =
-        guiding->unguided_passes > 0 ? fmt::format(": {} by Default", passes_text(guiding->unguided_passes)) : "";
+    const std::string shared = fmt::format(": {} by Default", passes_text(guiding->unguided_passes));
     if (!guiding->pays)
         row.add(run + "guiding given up" + shared, colors::kWarning);
     else
-        row.add(run + (*guiding->variance_ratio < 1.0 ? "guiding finds light that Default misses" : "guiding pays") +
-                    shared,
+        row.add(run + (*guiding->variance_ratio < 1.0 ? "guiding finds light that Default misses" : "guiding pays"),
                 colors::kGood);
 }
 

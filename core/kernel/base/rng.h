@@ -19,9 +19,8 @@ enum class Purpose : std::uint32_t {
     Emission = 7,   ///< further camera rays for emission alone, see camera_emission.h
 };
 
-/// Independent families of random numbers: camera paths, probes, placement, trials, inspections and the warm-up of a field never
-/// share one.
-enum class Stream : std::uint32_t { Picture = 0, Precompute = 1, Placement = 2, Trial = 3, Inspection = 4, WarmUp = 5 };
+/// Independent families of random numbers: camera paths, probes, placement and inspections never share one.
+enum class Stream : std::uint32_t { Picture = 0, Precompute = 1, Placement = 2, Inspection = 4 };
 
 /// A 128-bit counter or block of random bits; `Word` is a 32-bit integer, or a vector of them.
 template <class Word>

@@ -3,7 +3,6 @@
 
 #include "core/kernel/base/math.h"
 #include "core/kernel/base/span.h"
-#include "core/kernel/film/pass_weights.h"
 
 namespace pl {
 
@@ -58,7 +57,7 @@ struct FilmView {
     Span<FilmPixel> pixels;  ///< [row][column], row 0 at the top
     std::uint32_t width = 0;
     std::uint32_t height = 0;
-    PassWeights weights{};
+    std::uint32_t weight = 1;  ///< of the samples of the pass under way
 };
 
 /// Weights and counts saturate here; the mean has long converged to float precision.
@@ -77,22 +76,21 @@ PL_HD inline bool accumulate(const FilmView& film, std::uint32_t pixel, Vec3f ra
         p.invalid += p.invalid < kMostWeight ? 1u : 0u;
         return false;
     }
-    const std::uint32_t weight = film.weights.of(pass);
-    if (is_full(p, weight)) return true;
-    const Vec3d value = static_cast<double>(weight) * Vec3d{radiance};
+    if (is_full(p, film.weight)) return true;
+    const Vec3d value = static_cast<double>(film.weight) * Vec3d{radiance};
     p.sum += value;
-    p.weight += weight;
+    p.weight += film.weight;
     if (in_second_half(pass)) {
         p.second_sum += value;
-        p.second_weight += weight;
+        p.second_weight += film.weight;
     }
     return true;
 }
 
-/// Adds a correction of the sample of a pass that is in the film: the sample itself is not counted again.
-PL_HD inline void correct_sample(const FilmView& film, std::uint32_t pixel, Vec3f correction, std::uint32_t pass) {
+/// Adds a correction of a sample that is in the film with this weight: the sample itself is not counted again.
+PL_HD inline void correct_sample(const FilmView& film, std::uint32_t pixel, Vec3f correction, std::uint32_t pass,
+                                 std::uint32_t weight) {
     FilmPixel& p = film.pixels[pixel];
-    const std::uint32_t weight = film.weights.of(pass);
     if (is_full(p, weight)) return;
     const Vec3d value = static_cast<double>(weight) * Vec3d{correction};
     p.sum += value;

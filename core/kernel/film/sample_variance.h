@@ -48,43 +48,52 @@ private:
     }
 };
 
-/// Use of the samples of a pass.
-enum class SampleUse : std::uint32_t {
-    Film,      ///< added to the film
-    Measured,  ///< added, and their variance measured
-    Trial,     ///< measured alone: the film does not change
+/// Pixels whose earlier samples a sample is measured against: neighbors in a row of memory, which begin at multiples of their number.
+struct MeanBlock {
+    std::uint32_t pixels = 0;  ///< 0: samples are not measured
+
+    static constexpr std::uint32_t kMostPixels = 4;
+
+    PL_HD bool is_measured() const { return pixels > 0; }
 };
 
-/// Pixels of a pass that leaves out some: one of every `step`, at a place within them that varies, and steps on with `phase`.
-struct PixelSubset {
-    std::uint32_t step = 1;
-    std::uint32_t phase = 0;
-
-    PL_HD std::uint32_t count(std::uint32_t pixels) const { return pixels / step; }
-    PL_HD std::uint32_t pixel(std::uint32_t number) const {
-        return number * step + (((number * 0x9e3779b9u) >> 16) + phase) % step;
+/// Mean of the half of a block's samples that a pass does not belong to; NaN if there are none. Other
+/// threads may add samples of the same pass to the block meanwhile: with several pixels the pass has to be of the first half, so that the
+/// sums read here stay as they are.
+PL_HD inline Vec3f mean_behind(const FilmView& film, std::uint32_t pixel, std::uint32_t pass, MeanBlock block) {
+    const std::uint32_t begin = pixel - pixel % block.pixels;
+    const std::uint32_t end = min_of(begin + block.pixels, film.pixels.count);
+    PL_ASSERT(block.pixels == 1 || !in_second_half(pass));
+    Vec3d sum{0.0};
+    std::uint64_t weight = 0;
+    for (std::uint32_t i = begin; i < end; ++i) {
+        const FilmPixel& p = film.pixels[i];
+        sum += in_second_half(pass) ? p.sum - p.second_sum : p.second_sum;
+        weight += in_second_half(pass) ? p.weight - p.second_weight : p.second_weight;
     }
-    PL_HD std::uint32_t number(std::uint32_t pixel) const { return pixel / step; }
-};
+    return weight == 0 ? Vec3f{kNan} : Vec3f{sum * (1.0 / static_cast<double>(weight))};
+}
 
 /// Measures the variance of a sample that is about to come to a pixel. With the mean m of earlier samples, L (L - m) is an
-/// unbiased estimate of the variance of an independent sample L. Samples of one half of the film are spread evenly, and so
+/// unbiased estimate of the variance of an independent sample L; where m is the mean of a block of pixels, the mean over the block also
+/// holds the variance of their means. Samples of one half of the film are spread evenly, and so
 /// depend on one another: m is the mean of the half that the pass does not belong to. Divided by m^2 it has a bias that vanishes with the
 /// number of samples behind m: methods are compared against the same m. Pixels that see a lamp are left out: their
 /// variance is the variance of emission, which no sampling of directions changes, see camera_emission.h.
-PL_HD inline void measure_variance(const FilmPixel& pixel, Vec3f radiance, std::uint32_t pass, VarianceSums& sums) {
-    const bool sees_lamp = pixel.emission.is_lit() || pixel.emission.varies != 0 || pixel.emission.at_border != 0;
-    const bool has_both_halves = pixel.second_weight > 0 && pixel.weight > pixel.second_weight;
-    if (!has_both_halves || sees_lamp || !is_valid_radiance(radiance)) return;
-    const Vec3f mean = half_mean(pixel, !in_second_half(pass));
-    sums.add(radiance * (radiance - mean), mean);
+PL_HD inline void measure_variance(const FilmView& film, std::uint32_t pixel, Vec3f radiance, std::uint32_t pass,
+                                   MeanBlock block, VarianceSums& sums) {
+    const EmissionSeen& emission = film.pixels[pixel].emission;
+    const bool sees_lamp = emission.is_lit() || emission.varies != 0 || emission.at_border != 0;
+    if (sees_lamp || !is_valid_radiance(radiance)) return;
+    const Vec3f mean = mean_behind(film, pixel, pass, block);
+    if (mean.x == mean.x) sums.add(radiance * (radiance - mean), mean);
 }
 
-/// Puts the sample of a pass to its use. Returns false if it is invalid.
-PL_HD inline bool use_sample(const FilmView& film, std::uint32_t pixel, Vec3f radiance, std::uint32_t pass,
-                             SampleUse use, VarianceSums& sums) {
-    if (use != SampleUse::Film) measure_variance(film.pixels[pixel], radiance, pass, sums);
-    return use == SampleUse::Trial ? is_valid_radiance(radiance) : accumulate(film, pixel, radiance, pass);
+/// Adds the sample of a pass, and measures its variance if there is a block. Returns false if the sample is invalid.
+PL_HD inline bool add_sample(const FilmView& film, std::uint32_t pixel, Vec3f radiance, std::uint32_t pass,
+                             MeanBlock block, VarianceSums& sums) {
+    if (block.is_measured()) measure_variance(film, pixel, radiance, pass, block, sums);
+    return accumulate(film, pixel, radiance, pass);
 }
 
 }  // namespace pl

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/kernel/film/film_view.h"
+#include "core/kernel/film/pass_schedule.h"
 #include "core/kernel/integrator/holes.h"
 #include "core/kernel/integrator/steps.h"
 
@@ -32,6 +33,16 @@ struct EmissionContext {
     PathSettings settings;
     PixelGrid grid;
     std::uint32_t passes = 0;  ///< of the film, this one included
+    PassSchedule schedule{};
+
+    /// The number of the pass for looking at emission. The first pass of a warm-up is the second one, since later ones are measured, without
+    /// the pixels that see lamps; and these do not look, so that nothing changes that they are measured against.
+    PL_HD std::uint32_t looks() const {
+        constexpr std::uint32_t kNoLook = 7;
+        if (schedule.warm_up == 0) return passes;
+        if (passes > schedule.warm_up) return passes - schedule.warm_up + 2;
+        return passes == 1 ? 2 : kNoLook;
+    }
 };
 
 /// Radiance emitted by the first surface along a ray, or by the environment.
@@ -120,8 +131,8 @@ PL_HD inline bool differs_from_neighbors(const FilmView& film, std::uint32_t pix
 }
 
 /// Whether the emission along one ray, noting_ray(), is noted in this pass for every pixel whose emission is not known to vary.
-/// `passes`: EmissionContext::passes.
-PL_HD inline bool notes_emission(std::uint32_t passes) { return passes >= 2 && (passes & (passes - 1)) == 0; }
+/// `looks`: EmissionContext::looks().
+PL_HD inline bool notes_emission(std::uint32_t looks) { return looks >= 2 && (looks & (looks - 1)) == 0; }
 template <FeatureSet F>
 PL_HD inline Ray noting_ray(const EmissionContext& context, std::uint32_t pixel) {
     return probing_ray<F>(context, pixel, kCorners);
@@ -146,12 +157,12 @@ PL_HD inline void decide_border(const EmissionContext& context, const SceneView&
         });
 }
 
-/// Looks for emission that varies within a pixel. In the passes 2, 4, 8, ... one ray notes a value; in the next ones, 3, 5, 9, ...,
+/// Looks for emission that varies within a pixel. In the looks 2, 4, 8, ... one ray notes a value; in the next ones, 3, 5, 9, ...,
 /// further rays decide about pixels whose neighbors have seen another value. Returns the number of rays.
 template <FeatureSet F, class Rays>
 PL_HD inline std::uint32_t look_for_emission(const EmissionContext& context, const SceneView& scene, Rays& rays,
                                              const FilmView& film, std::uint32_t pixel) {
-    if (notes_emission(context.passes)) {
+    if (notes_emission(context.looks())) {
         rays.trace(
             1, [&](std::uint32_t) { return noting_ray<F>(context, pixel); },
             [&](std::uint32_t, const Ray& ray, const Hit& hit) {
@@ -159,7 +170,7 @@ PL_HD inline std::uint32_t look_for_emission(const EmissionContext& context, con
             });
         return 1;
     }
-    if (!notes_emission(context.passes - 1) || !differs_from_neighbors(film, pixel)) return 0;
+    if (!notes_emission(context.looks() - 1) || !differs_from_neighbors(film, pixel)) return 0;
     decide_border<F>(context, scene, rays, film.pixels[pixel], pixel);
     return kBorderRays;
 }
@@ -178,29 +189,31 @@ struct EmissionWork {
 };
 
 /// The sample that a pass has added to a pixel whose emission varies; if the emission has just been found to vary,
-/// also the samples of the passes before, whose numbers precede the number of this sample. `was_refined`:
+/// also the samples of the passes before. `was_refined`:
 /// is_refined() before this pass.
 PL_HD inline EmissionWork emission_work(const EmissionContext& context, EmissionSeen& seen, bool was_refined) {
     if (seen.varies == 0) return {};
     if (seen.varies == EmissionSeen::kBorderMarked) seen.varies = EmissionSeen::kLampBorder;
-    return {.samples = was_refined ? 1u : min_of(context.passes, context.grid.sample + 1),
+    return {.samples = was_refined ? 1u : context.passes,
             .rays = seen.varies == EmissionSeen::kSkyBorder ? kSkyRays : kEmissionRays};
 }
 
-/// Does the work of a pixel: L = mean(E) + (path - E_0) in each sample. Calls correct(sample, correction).
+/// Does the work of a pixel: L = mean(E) + (path - E_0) in each sample. Calls correct(sample, weight, correction).
 template <FeatureSet F, class Rays, class Correct>
 PL_HD inline void refine_samples(const EmissionContext& context, Rays& rays, std::uint32_t pixel,
                                  const EmissionWork& work, const Correct& correct) {
     for (std::uint32_t i = 0; i < work.samples; ++i) {
-        const std::uint32_t sample = context.grid.sample - i;
-        correct(sample, emission_correction<F>(context, rays, pixel, sample, work.rays));
+        const std::uint32_t pass = context.passes - 1 - i;
+        const std::uint32_t sample = i == 0 ? context.grid.sample : context.schedule.sample_of(pass);
+        correct(sample, context.schedule.weight_of(pass),
+                emission_correction<F>(context, rays, pixel, sample, work.rays));
     }
 }
 template <FeatureSet F, class Rays>
 PL_HD inline void refine_samples(const EmissionContext& context, Rays& rays, const FilmView& film,
                                  std::uint32_t pixel, const EmissionWork& work) {
-    refine_samples<F>(context, rays, pixel, work, [&](std::uint32_t sample, Vec3f correction) {
-        correct_sample(film, pixel, correction, sample);
+    refine_samples<F>(context, rays, pixel, work, [&](std::uint32_t sample, std::uint32_t weight, Vec3f correction) {
+        correct_sample(film, pixel, correction, sample, weight);
     });
 }
 

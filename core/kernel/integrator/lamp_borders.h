@@ -7,8 +7,9 @@
 
 namespace pl {
 
-/// The pass of a film before whose refinement borders are marked: a picture in motion has one pass and pays nothing.
-inline constexpr std::uint32_t kMarkingPass = 2;
+/// EmissionContext::looks() of the pass before whose refinement borders are marked: a picture in motion has one pass and pays nothing, but
+/// in a warm-up.
+inline constexpr std::uint32_t kMarkingLook = 2;
 /// Largest distance on the film, in pixels, from the edge to the rays on both sides of it.
 inline constexpr float kEdgeMargin = 0.25f;
 

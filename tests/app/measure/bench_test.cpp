@@ -79,7 +79,7 @@ TEST_CASE("a bench leaves everything it knows") {
         CHECK_THAT(seconds.at("charged").get<double>(), WithinRel(charged, 1e-12));
         const std::string method = run.at("method");
         CHECK((seconds.at("precompute").get<double>() > 0.0) == (method == "precomputed"));
-        CHECK((seconds.at("learn").get<double>() > 0.0) == (method != "default"));
+        CHECK((seconds.at("learn").get<double>() > 0.0) == (method == "reinforcement"));
         CHECK((seconds.at("place").get<double>() > 0.0) == (method != "default"));
         // The precomputed curve starts when the map is complete.
         const json& first = run.at("points").front().at("seconds");

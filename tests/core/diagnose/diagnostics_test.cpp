@@ -148,7 +148,7 @@ TEST_CASE("Find diagnostics: training samples are clamped where the field is too
     DiagnosticsInput source = diagnostics_input(session, slot_of(session.settings()));
     CHECK(source.passes.repeats_training);
     CHECK(source.passes.has_moving_tables);
-    CHECK(source.passes.first_sample == 0);
+    CHECK(source.passes.schedule.trained == 0);
     CHECK(source.counted[index_of(DiagnosticKind::ClampedSample)] == 0);
     CHECK(find_diagnostics(source, 2).traced == 0);
     source.counted[index_of(DiagnosticKind::ClampedSample)] = ~std::uint64_t{0};

@@ -76,6 +76,7 @@ TEST_CASE("Pixel paths: a learner's picture has those of default beside them, by
     REQUIRE(paths.guided.size() == 12);
     CHECK(std::ranges::is_sorted(paths.guided, std::ranges::greater{}, path_light));
     PassReplay alone = plain.pass_replay(slot_of(plain));
+    alone.schedule = passes.plain.schedule;
     bool differ = false;
     for (std::size_t i = 0; i < 12; ++i) {
         const PathRecord path = record_path(alone, field_of(alone), kTracedPixel, paths.passes[i]);

@@ -30,7 +30,7 @@ std::vector<PathRecord> record_pass(Session& session) {
         come_to_path(session, first);
         PassReplay passes = session.pass_replay(slot);
         const AnyFieldView field = field_of(passes);
-        const bool in_parts = info_of(slot.method).learns && passes.first_sample + passes.samples == 0;
+        const bool in_parts = info_of(slot.method).learns && passes.schedule.trained + passes.samples == 0;
         // Parts end at powers of two from 1024 on.
         const std::uint32_t end = in_parts ? std::min(first == 0 ? 1024u : 2 * first, kPixels) : kPixels;
         for (std::uint32_t pixel = first; pixel < end; ++pixel)
@@ -60,7 +60,7 @@ std::vector<Vec3f> render_alone(Session& session) {
                       .camera = make_camera(settings.camera, settings.width, settings.height),
                       .mixture = mixture_of(settings, slot.method),
                       .learning = settings.field.learning,
-                      .sample = pass});
+                      .sample = session.pass_replay(slot).schedule.sample_of(pass)});
     return backend.read_film(slot).mean;
 }
 

@@ -19,167 +19,186 @@ PassCounters counters_of(double variance, std::uint64_t dark = 0) {
         static_cast<std::uint64_t>(static_cast<std::int64_t>(100.0 * variance * VarianceSums::kSteps)), 100};
     return counters;
 }
-/// 100 paths whose variance is not measured.
-PassCounters unmeasured() {
-    PassCounters counters;
-    counters.paths = 100;
-    return counters;
+
+constexpr double kLeast = 1.28;  // of a table, after a warm-up
+constexpr double kLeastLater = 1.6;
+constexpr double kTable = 1.0;               // guidance
+constexpr std::uint32_t kLarge = 65536;      // pixels: one pass of each role
+constexpr std::uint32_t kSmall = 128 * 128;  // four
+
+GuidingChoice beginning(std::uint32_t pixels, bool is_known = false) {
+    GuidingChoice choice;
+    choice.begin_film(pixels, is_known);
+    return choice;
 }
 
-constexpr double kLeast = 1.28;
-
-/// Runs a warm-up whose paths of the baseline have variance 1, and guided ones this variance.
-void warm_up(GuidingChoice& choice, double guided, std::uint64_t dark_of_baseline = 0) {
-    for (int i = 0; choice.is_warming_up() && i < 100; ++i)
-        choice.measure_warm_up(choice.warm_up_trial() == Trial::Guided ? counters_of(guided)
-                                                                       : counters_of(1.0, dark_of_baseline),
-                               kLeast);
+/// Runs passes of a film from `first` on; paths of the baseline have variance 1, and guided ones this variance.
+void run(GuidingChoice& choice, double guided, std::uint32_t passes, std::uint32_t first = 0,
+         std::uint64_t dark_of_baseline = 0) {
+    for (std::uint32_t pass = first; pass < first + passes; ++pass)
+        choice.finish_pass(pass, choice.is_guided(pass) ? counters_of(guided) : counters_of(1.0, dark_of_baseline),
+                           kTable);
 }
 
-/// Runs the first passes of a film likewise. Returns those that were guided.
-std::vector<std::uint32_t> run(GuidingChoice& choice, double guided, std::uint32_t passes = 12) {
-    std::vector<std::uint32_t> result;
-    for (std::uint32_t pass = 0; pass < passes; ++pass) {
-        const Trial trial = choice.trial_before(pass);
-        if (trial != Trial::None) choice.measure_trial(pass, counters_of(trial == Trial::Guided ? guided : 1.0));
-        if (choice.pays()) result.push_back(pass);
-        if (choice.is_measured(pass)) choice.measure_pass(pass, counters_of(choice.pays() ? guided : 1.0), kLeast);
-    }
+std::vector<PassRole> roles(const GuidingChoice& choice, std::uint32_t passes) {
+    std::vector<PassRole> result;
+    for (std::uint32_t pass = 0; pass < passes; ++pass) result.push_back(choice.role_of(pass));
     return result;
 }
 
-GuidingChoice beginning() {
-    GuidingChoice choice;
-    choice.begin_guided();
-    return choice;
+/// The passes that are measured in a film whose choice stays.
+std::vector<std::uint32_t> measured(const GuidingChoice& choice, std::uint32_t passes) {
+    std::vector<std::uint32_t> result;
+    for (std::uint32_t pass = 0; pass < passes; ++pass)
+        if (choice.block_of(pass).is_measured()) result.push_back(pass);
+    return result;
 }
 
 }  // namespace
 
 TEST_CASE("Guiding choice: representations whose guidance takes more time have to gain more") {
     const auto least = [](Representation representation) {
-        return GuidingChoice::least_ratio(guidance_of(representation));
+        return GuidingChoice::least_ratio(guidance_of(representation), true);
     };
     CHECK(least(Representation::Table) == Approx(kLeast));
+    CHECK(GuidingChoice::least_ratio(guidance_of(Representation::Table), false) == Approx(kLeastLater));
     CHECK(least(Representation::SdTree) > least(Representation::Table));
     CHECK(least(Representation::Lobes) > least(Representation::SdTree));
     CHECK(least(Representation::Neural) > least(Representation::Lobes));
 }
 
-TEST_CASE("Guiding choice: a warm-up makes means by four rounds and measures both methods in four more") {
-    GuidingChoice choice;
-    std::vector<std::uint32_t> baseline;
-    std::vector<std::uint32_t> guided;
-    while (choice.is_warming_up()) {
-        (choice.warm_up_trial() == Trial::Guided ? guided : baseline).push_back(choice.warm_up_round());
-        CHECK_FALSE(choice.variance_ratio());
-        choice.measure_warm_up(counters_of(choice.warm_up_trial() == Trial::Guided ? 0.5 : 1.0), kLeast);
-    }
-    CHECK(baseline == std::vector<std::uint32_t>{0, 1, 2, 3, 4, 5, 6, 7});
-    CHECK(guided == std::vector<std::uint32_t>{4, 5, 6, 7});
-    CHECK(choice.variance_ratio() == Approx(2.0));
-    CHECK(choice.pays());
-}
-
-TEST_CASE("Guiding choice: the ratio of variances decides, after a warm-up and before pass 8") {
-    for (const double ratio : {0.5, 1.0, 1.25, 1.3, 2.0, 30.0}) {
-        INFO(ratio);
-        GuidingChoice warm;
-        warm_up(warm, 1.0 / ratio);
-        CHECK(warm.pays() == (ratio > kLeast));
-        CHECK(warm.variance_ratio() == Approx(ratio));
-        CHECK_FALSE(warm.found_hidden_light());
-
-        GuidingChoice small = beginning();
-        const std::size_t guided = run(small, 1.0 / ratio).size();
-        CHECK(guided == (ratio > kLeast ? 12 : 8));
-        CHECK(small.variance_ratio() == Approx(ratio));
-    }
-}
-
 TEST_CASE(
-    "Guiding choice: a film decides once more, soon if it is guided, else when that costs little beside its passes") {
-    GuidingChoice lucky;
-    warm_up(lucky, 0.2);
-    CHECK(run(lucky, 1.0, 100) == std::vector<std::uint32_t>{0, 1, 2, 3, 4, 5, 6, 7});
-    GuidingChoice unlucky;
-    warm_up(unlucky, 1.0);
-    CHECK(run(unlucky, 0.2, 68) == std::vector<std::uint32_t>{64, 65, 66, 67});
-    GuidingChoice restarted = unlucky.restarted();
-    CHECK(restarted.pays());
-    CHECK(run(restarted, 1.0, 100) == std::vector<std::uint32_t>{0, 1, 2, 3, 4, 5, 6, 7});
-    CHECK(run(restarted = restarted.restarted(), 0.2, 10) == std::vector<std::uint32_t>{8, 9});
+    "Guiding choice: a film of an unknown field begins with passes that train, of the baseline and guided ones") {
+    using enum PassRole;
+    CHECK(roles(beginning(kLarge), 5) == std::vector{Training, Baseline, Guided, None, None});
+    CHECK(roles(beginning(40'000), 7) == std::vector{Training, Training, Baseline, Baseline, Guided, Guided, None});
+    CHECK(beginning(kSmall).schedule().warm_up == 12);
+    CHECK(beginning(64).schedule().warm_up == 12);
+    CHECK(beginning(8'000'000).schedule().warm_up == 3);
+    CHECK(beginning(kLarge, true).schedule().warm_up == 0);
+    CHECK(roles(beginning(kLarge, true), 4) == std::vector(4, None));
 }
 
-TEST_CASE(
-    "Guiding choice: the four passes before a decision have a trial of the method that they do not use, once each") {
-    for (const bool pays : {true, false}) {
-        GuidingChoice choice;
-        warm_up(choice, pays ? 0.2 : 1.0);
-        const std::uint32_t decision = pays ? 8 : 64;
-        for (std::uint32_t pass = 0; pass < 100; ++pass) {
-            const Trial due = choice.trial_before(pass);
-            const bool is_measured = pass >= decision - 4 && pass < decision;
-            CHECK(due == (!is_measured ? Trial::None : pays ? Trial::Baseline : Trial::Guided));
-            CHECK(choice.is_due_before(pass) == (pass == 0 || (pass >= decision - 4 && pass <= decision)));
-            if (due == Trial::None) continue;
-            choice.measure_trial(pass, counters_of(1.0));
-            CHECK(choice.trial_before(pass) == Trial::None);
+TEST_CASE("Guiding choice: roles, weights and measured pixels do not depend on what is measured") {
+    for (const std::uint32_t pixels : {kLarge, kSmall}) {
+        GuidingChoice paying = beginning(pixels);
+        GuidingChoice losing = beginning(pixels);
+        for (std::uint32_t pass = 0; pass < 300; ++pass) {
+            INFO(pixels << " pixels, pass " << pass);
+            CHECK((paying.role_of(pass) == PassRole::None) == (losing.role_of(pass) == PassRole::None));
+            CHECK(paying.schedule().weight_of(pass) == losing.schedule().weight_of(pass));
+            CHECK(paying.block_of(pass).pixels == losing.block_of(pass).pixels);
+            run(paying, 0.2, 1, pass);
+            run(losing, 1.0, 1, pass);
         }
+        CHECK(paying.pays());
+        CHECK_FALSE(losing.pays());
     }
+}
+
+TEST_CASE("Guiding choice: passes of a warm-up, and of the other method in a question, weigh less") {
+    const GuidingChoice choice = beginning(kLarge);
+    for (std::uint32_t pass = 0; pass < 300; ++pass) {
+        const bool is_other = pass == 64 || pass == 256;
+        INFO(pass);
+        CHECK(choice.schedule().weight_of(pass) == (pass < 2 || is_other ? 1u : pass == 2 ? 4u : 8u));
+        CHECK(choice.is_guided(pass) == (pass >= 2 && !is_other));
+    }
+}
+
+TEST_CASE("Guiding choice: both methods are measured in a warm-up and in every question") {
+    CHECK(measured(beginning(kLarge), 300) == std::vector<std::uint32_t>{1, 2, 64, 65, 256, 257});
+    CHECK(measured(beginning(kSmall), 80) ==
+          std::vector<std::uint32_t>{4, 5, 6, 7, 8, 10, 64, 65, 66, 67, 68, 69, 70, 71});
+    CHECK(measured(beginning(kLarge, true), 70) == std::vector<std::uint32_t>{8, 9, 64, 65});
+    // Against four samples: of four pixels, or of one.
+    CHECK(beginning(kLarge).block_of(2).pixels == 4);
+    CHECK(beginning(kSmall).block_of(8).pixels == 1);
+    CHECK(beginning(kLarge).block_of(64).pixels == 1);
+}
+
+TEST_CASE("Guiding choice: the ratio of variances decides after a warm-up") {
+    for (const std::uint32_t pixels : {kLarge, kSmall})
+        for (const double ratio : {0.5, 1.0, 1.25, 1.3, 2.0, 30.0}) {
+            INFO(ratio);
+            GuidingChoice choice = beginning(pixels);
+            run(choice, 1.0 / ratio, choice.schedule().warm_up - 1);
+            CHECK_FALSE(choice.variance_ratio());
+            run(choice, 1.0 / ratio, 1, choice.schedule().warm_up - 1);
+            CHECK(choice.pays() == (ratio > kLeast));
+            CHECK(choice.is_guided(choice.schedule().warm_up) == (ratio > kLeast));
+            CHECK(choice.variance_ratio() == Approx(ratio));
+        }
+}
+
+TEST_CASE(
+    "Guiding choice: a question is a pass by the other method and one by the method, and may change the choice") {
+    GuidingChoice lucky = beginning(kLarge);
+    run(lucky, 0.2, 3);
+    CHECK(lucky.role_of(64) == PassRole::Baseline);
+    CHECK_FALSE(lucky.is_guided(64));
+    CHECK(lucky.role_of(65) == PassRole::Guided);
+    run(lucky, 1.0, 63, 3);
+    CHECK_FALSE(lucky.pays());
+    CHECK(lucky.role_of(256) == PassRole::Guided);
+    run(lucky, 0.2, 192, 66);
+    CHECK(lucky.pays());
+    for (const double ratio : {1.5, 1.7}) {
+        GuidingChoice choice = beginning(kLarge);
+        run(choice, 1.0 / ratio, 66);
+        CHECK(choice.pays() == (ratio > kLeastLater));
+    }
+    // Of a film without a warm-up the first question is early.
+    GuidingChoice moved = lucky.restarted();
+    moved.begin_film(kLarge, true);
+    CHECK(moved.schedule().warm_up == 0);
+    CHECK(moved.pays());
+    CHECK_FALSE(moved.variance_ratio());
+    run(moved, 1.0, 10);
+    CHECK_FALSE(moved.pays());
+    GuidingChoice again = moved.restarted();
+    again.begin_film(kLarge, true);
+    CHECK_FALSE(again.is_guided(0));
+    CHECK(again.is_guided(8));
 }
 
 TEST_CASE("Guiding choice: guiding pays where it finds light that the baseline does not, whatever the variances") {
     for (const auto& [dark, finds] :
          {std::pair{0, false}, std::pair{45, false}, std::pair{55, true}, std::pair{95, true}}) {
         INFO(dark);
-        GuidingChoice choice;
-        warm_up(choice, 5.0, static_cast<std::uint64_t>(dark));
+        GuidingChoice choice = beginning(kLarge);
+        run(choice, 5.0, 3, 0, static_cast<std::uint64_t>(dark));
         CHECK(choice.pays() == finds);
-        CHECK(choice.found_hidden_light() == finds);
     }
 }
 
 TEST_CASE("Guiding choice: without a measurable variance the belief stays") {
     for (const double guided : {0.0, -1.0}) {
-        GuidingChoice choice = beginning();
-        CHECK(run(choice, guided).size() == 12);
+        GuidingChoice choice = beginning(kLarge);
+        run(choice, guided, 3);
+        CHECK(choice.pays());
         CHECK_FALSE(choice.variance_ratio());
-        GuidingChoice warm;
-        warm_up(warm, guided);
-        CHECK(warm.pays());
     }
-    GuidingChoice dark;
-    while (dark.is_warming_up()) dark.measure_warm_up(unmeasured(), kLeast);
+    GuidingChoice dark = beginning(kLarge);
+    PassCounters unmeasured;
+    unmeasured.paths = 100;
+    for (std::uint32_t pass = 0; pass < 3; ++pass) dark.finish_pass(pass, unmeasured, kTable);
     CHECK(dark.pays());
     CHECK_FALSE(dark.variance_ratio());
 }
 
-TEST_CASE("Guiding choice: another film keeps the belief and measures anew") {
-    for (const double guided : {0.2, 1.0}) {
-        GuidingChoice choice;
-        warm_up(choice, guided);
-        GuidingChoice again = choice.restarted();
-        CHECK_FALSE(again.is_warming_up());
-        CHECK(again.pays() == choice.pays());
-        CHECK_FALSE(again.variance_ratio());
-        run(again, 0.5);
-        CHECK(again.pays());
-    }
-}
-
-TEST_CASE("Guiding choice: a warm-up that another film interrupts is not begun again once it has measured") {
-    GuidingChoice choice;
-    for (int trials = 0; trials < 6; ++trials) {
-        CHECK(choice.restarted().is_warming_up() == (trials < 4));
-        CHECK(choice.restarted().pays());
-        choice.measure_warm_up(counters_of(1.0), kLeast);
-    }
+TEST_CASE("Guiding choice: a film that was interrupted before it decided leaves no belief") {
+    GuidingChoice choice = beginning(kSmall);
+    run(choice, 1.0, 11);
+    GuidingChoice next = choice.restarted();
+    next.begin_film(kSmall, false);
+    CHECK(next.schedule().warm_up == 12);
+    CHECK(next.pays());
 }
 
 TEST_CASE("Guiding choice: every value of its state is visited") {
-    GuidingChoice choice;
-    for (int trials = 0; trials < 6; ++trials) choice.measure_warm_up(counters_of(0.5, 10), kLeast);
+    GuidingChoice choice = beginning(kSmall);
+    run(choice, 0.5, 9, 0, 10);
     GuidingChoice copy;
     std::vector<double> values;
     const auto as_number = [](const auto& value) {
@@ -189,7 +208,7 @@ TEST_CASE("Guiding choice: every value of its state is visited") {
             return static_cast<double>(value);
     };
     GuidingChoice::each_value(choice, [&](const auto& value) { values.push_back(as_number(value)); });
-    CHECK(values.size() == 14);
+    CHECK(values.size() == 12);
     std::size_t next = 0;
     GuidingChoice::each_value(copy, [&](auto& value) {
         const double from = values[next++];
@@ -199,8 +218,8 @@ TEST_CASE("Guiding choice: every value of its state is visited") {
             value = static_cast<std::remove_cvref_t<decltype(value)>>(from);
         }
     });
-    warm_up(choice, 0.7);
-    warm_up(copy, 0.7);
+    for (GuidingChoice* one : {&choice, &copy}) run(*one, 0.7, 3, 9);
     CHECK(copy.variance_ratio() == choice.variance_ratio());
+    CHECK(copy.variance_ratio());
     CHECK(copy.pays() == choice.pays());
 }

@@ -30,11 +30,10 @@ TEST_CASE("Path settings: without roulette paths end by their depth alone") {
 }
 
 TEST_CASE("Path settings: only passes of methods that learn while they render have weights that grow") {
-    CHECK(pass_weights({}, MethodId::Default).ramp == 1u);
-    CHECK(pass_weights({}, MethodId::Precomputed).ramp == 1u);
-    const PassWeights weights = pass_weights({}, MethodId::Reinforcement);
-    CHECK(weights.of(0) == 1u);
-    CHECK(weights.of(weights.ramp) > 1u);
+    CHECK(weight_ramp({}, MethodId::Default) == 1u);
+    CHECK(weight_ramp({}, MethodId::Precomputed) == 1u);
+    CHECK(weight_ramp({.next_event = true}, MethodId::Reinforcement) == 4u);
+    CHECK(weight_ramp({.next_event = false}, MethodId::Reinforcement) == 8u);
 }
 
 TEST_CASE("Path settings: guided paths play roulette earlier with light samples") {

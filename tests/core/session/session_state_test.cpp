@@ -88,7 +88,7 @@ TEST_CASE("What is known of guiding is continued to the bit") {
         INFO(side);
         RenderSettings settings = small_settings(scene, {MethodId::Reinforcement, true}, side, side);
         settings.guiding = GuidingRule::Paying;
-        const std::uint32_t passes = side == 64 ? 8 : 1;
+        const std::uint32_t passes = side == 64 ? 13 : 4;
         Session whole = begin(scene, settings, 2);
         render_passes(whole, passes);
         Session session = begin(scene, settings, 2);
@@ -100,8 +100,8 @@ TEST_CASE("What is known of guiding is continued to the bit") {
         const GuidingStatus expected = whole.guiding_status(slot_of(whole)).value();
         const GuidingStatus got = session.guiding_status(slot_of(session)).value();
         CHECK(expected.variance_ratio == got.variance_ratio);
-        CHECK(expected.trial_paths == got.trial_paths);
-        CHECK((side == 64 || got.trial_paths > 0));
+        CHECK(got.variance_ratio);
+        CHECK(expected.pays == got.pays);
     }
 }
 

@@ -15,7 +15,7 @@ public:
 
     PassCounters run_pass(const PassRequest& request) override {
         PassRequest part = request;
-        if (stops_behind && request.use != SampleUse::Trial) {
+        if (stops_behind) {
             part.end_pixel = request.first_pixel + *stops_behind;
             part.most_passes = 1;
             stops_behind.reset();

@@ -226,6 +226,10 @@ TEST_CASE("A run goes on in the sequences of the last one like it, unless guidin
     CHECK(odd.sequences_behind(std::vector{spread, training}) == odd.own_sequences());
     const PassRun unguided{.first_pass = 4, .first_sample = 14, .sequences = {28, 14}, .is_guided = false};
     CHECK(next.sequences_behind(std::vector{spread, unguided}) == next.own_sequences());
+    // Behind a question: its passes have sequences of their own, whichever method they are of.
+    PassRun other = unguided;
+    other.decides = true;
+    CHECK(next.sequences_behind(std::vector{spread, other}) == VertexSequences{20, 12});
     CHECK(next.sequences_behind({}) == next.own_sequences());
 }
 
@@ -237,20 +241,22 @@ TEST_CASE("Passes that train draw from new sequences after every update, and tho
     for (std::uint32_t pass = 0, first = 0; pass < 13; ++pass) {
         if (is_updated_after(pass)) first = pass;
         INFO("pass " << pass);
-        CHECK(run_of(pass) ==
-              PassRun{.first_pass = first, .first_sample = first, .sequences = {2 * first, first}, .trains = true});
+        CHECK(run_of(pass) == PassRun{.first_pass = first,
+                                      .first_sample = 8 + first,
+                                      .sequences = {2 * (8 + first), 8 + first},
+                                      .trains = true});
     }
     session.apply(EditLearning{MethodId::Reinforcement, LearningControl::Freeze});
     render_passes(session, 7);
     for (std::uint32_t pass = 13; pass < 20; ++pass)
-        CHECK(run_of(pass) == PassRun{.first_pass = 13, .first_sample = 13, .sequences = {26, 13}});
+        CHECK(run_of(pass) == PassRun{.first_pass = 13, .first_sample = 21, .sequences = {42, 21}});
 
     // A pass that trains, in between: its sample is not a member of the others' sequences, which exchange no halves.
     session.apply(EditLearning{MethodId::Reinforcement, LearningControl::Step});
     render_passes(session, 2);
     CHECK(run_of(20).trains);
-    CHECK(run_of(20).sequences == VertexSequences{40, 20});
-    CHECK(run_of(21).sequences == VertexSequences{42, 21});
+    CHECK(run_of(20).sequences == VertexSequences{56, 28});
+    CHECK(run_of(21).sequences == VertexSequences{58, 29});
 }
 
 TEST_CASE("Methods that do not learn draw from one pair of sequences through all passes") {

@@ -140,7 +140,7 @@ Outcome loop_over_paths(const Room& room, const Effects& effects) {
     if constexpr (GuidedMethod<M>) method.field = field_view(room.shape, *room.volumes, outcome.tables);
     for (std::uint32_t sample = 0; sample < kPasses; ++sample) {
         const EmissionContext emission{room.camera, settings, {kWidth, kHeight, sample}, sample + 1};
-        for (std::uint32_t light = 0; sample + 1 == kMarkingPass && light < scene.lights.count; ++light)
+        for (std::uint32_t light = 0; sample + 1 == kMarkingLook && light < scene.lights.count; ++light)
             outcome.counters.path.emission_rays += mark_lamp_borders<F>(emission, scene, rays, film, light);
         for (std::uint32_t pixel = 0; pixel < pixels.size(); ++pixel) {
             auto state = begin_path<F, M>(room.camera, settings, {kWidth, kHeight, sample}, pixel);

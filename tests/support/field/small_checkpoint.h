@@ -36,7 +36,7 @@ inline Checkpoint small_checkpoint() {
     film.progress.updates_seen = 4;
     film.progress.counters.path.method.lookup_misses = 77;
     film.progress.counters.variance = {5, 6};
-    film.progress.guiding.begin_guided();
+    film.progress.guiding.begin_film(6, false);
     film.pixels[4].second_sum = Vec3d{0.1, 0.2, 1.0e300};
     film.pixels[5].emission = {.value = 9, .varies = 3, .at_border = 1};
     return {.seconds = 12.5, .state = std::move(state)};

@@ -44,7 +44,7 @@ double spread_of(const Integrand& integrand) {
 }  // namespace
 
 TEST_CASE("Only first vertices of camera paths have numbers of a sequence") {
-    for (const Stream stream : {Stream::Picture, Stream::Precompute, Stream::Placement, Stream::Trial})
+    for (const Stream stream : {Stream::Picture, Stream::Precompute, Stream::Placement, Stream::Inspection})
         for (std::uint32_t vertex = 0; vertex < 4; ++vertex) {
             const Rng rng{3, stream, 17, 9};
             const bool spread = stream == Stream::Picture && vertex == kSpreadVertex;

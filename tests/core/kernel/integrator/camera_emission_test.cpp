@@ -50,7 +50,7 @@ HostArray<FilmPixel> render(const HostScene& scene, std::uint64_t seed, std::uin
     PathCounters counters;
     for (std::uint32_t sample = 0; sample < passes; ++sample) {
         const PixelGrid grid{kPictureSide, kPictureSide, sample};
-        for (std::uint32_t light = 0; refines && sample + 1 == kMarkingPass && light < view.lights.count; ++light)
+        for (std::uint32_t light = 0; refines && sample + 1 == kMarkingLook && light < view.lights.count; ++light)
             mark_lamp_borders<F>({camera, settings, grid, sample + 1}, view, rays, film, light);
         for (std::uint32_t pixel = 0; pixel < pixels.size(); ++pixel) {
             auto state = begin_path<F, DefaultMethod>(camera, settings, grid, pixel);
@@ -163,7 +163,7 @@ TEST_CASE("Edges between equal lamps, behind other surfaces, behind the camera o
         description.eye = eye;
         description.target = target;
         EmissionContext context{
-            make_camera(description, kPictureSide, kPictureSide), {}, {kPictureSide, kPictureSide, 1}, kMarkingPass};
+            make_camera(description, kPictureSide, kPictureSide), {}, {kPictureSide, kPictureSide, 1}, kMarkingLook};
         context.camera.aperture_radius = aperture;
         HostArray<FilmPixel> pixels(kPictureSide * kPictureSide);
         for (std::uint32_t light = 0; light < view.lights.count; ++light)
