@@ -90,6 +90,6 @@ echo "$runs runs, $failed failed"
 if [[ $module == ON ]]; then
     LD_PRELOAD="$(c++ -print-file-name=libasan.so) $(c++ -print-file-name=libstdc++.so)" ASAN_OPTIONS=detect_leaks=0 \
         PYTHONMALLOC=malloc PYTHONPATH="$build/python" PATHLIGHT_PROGRAM="$build/pathlight" \
-        "$python" -m pytest -q "$source/tests/python" --deselect "$source/tests/python/test_module.py::test_the_stub_has_every_public_name" || failed=$((failed + 1))
+        "$python" -m pytest -q -k "not stub" "$source/tests/python" || failed=$((failed + 1))
 fi
 exit $((failed > 0))
