@@ -49,6 +49,12 @@ std::vector<LitSides> find_lit_sides(const HostScene& scene, const Surfaces& sur
 struct LitSurfaces {
     Surfaces surfaces;
     std::vector<LitSides> lit;  ///< [surface]
+
+    /// Whether light reaches this side of a triangle; false for triangles of no surface.
+    bool is_lit(std::uint32_t primitive, bool front) const {
+        const std::uint32_t surface = surfaces.of_primitive(primitive);
+        return surface != kNoSurface && lit[surface][front ? 0 : 1];
+    }
 };
 LitSurfaces find_lit_surfaces(const HostScene& scene, int threads = 1);
 

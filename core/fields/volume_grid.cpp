@@ -119,10 +119,10 @@ Ball ball_around(const TriangleCorners& corners) {
 class SideBuilder {
 public:
     /// `own`: number of volumes placed on each side. `places`: the entries of all sides.
-    SideBuilder(const HostScene& scene, const HostVolumes& volumes, Span<const std::uint32_t> own, NormalTrees& trees,
-                std::span<VolumePlace> places)
-        : scene_(scene.view()), tree_{view_of(volumes.kd_nodes)}, sites_(view_of(volumes.sites)), own_(own),
-          sets_(trees), places_(places) {}
+    SideBuilder(const HostScene& scene, const HostVolumes& volumes, const LitSurfaces* surfaces,
+                Span<const std::uint32_t> own, NormalTrees& trees, std::span<VolumePlace> places)
+        : scene_(scene.view()), tree_{view_of(volumes.kd_nodes)}, sites_(view_of(volumes.sites)), surfaces_(surfaces),
+          own_(own), sets_(trees), places_(places) {}
 
     /// Builds both sides of these entries of the hierarchy's triangles, and writes their places. Places of kind Grid
     /// or Cell number the grids and cells of the pieces that are returned.
@@ -139,6 +139,7 @@ private:
         const TriangleCorners corners{scene_.positions, scene_.triangles[primitive]};
         const Ball ball = ball_around(corners);
         for (const bool front : {true, false}) {
+            if (surfaces_ != nullptr && !surfaces_->is_lit(primitive, front)) continue;
             const std::uint32_t side = front ? primitive : primitive + scene_.direct_triangles();
             normal_ = (front ? 1.0f : -1.0f) * scene_.planes[primitive].normal;
             const std::optional<std::uint32_t> only = sets_.find_only(ball, normal_);
@@ -244,6 +245,7 @@ private:
     SceneView scene_;
     KdTreeView tree_;
     Span<const SurfacePoint> sites_;
+    const LitSurfaces* surfaces_;
     Span<const std::uint32_t> own_;
     NearestSets sets_;
     std::span<VolumePlace> places_;
@@ -268,7 +270,8 @@ std::vector<std::uint32_t> count_on_sides(const HostScene& scene, const HostVolu
 
 }  // namespace
 
-HostVolumeGrid build_volume_grid(const HostScene& scene, const HostVolumes& volumes, int threads) {
+HostVolumeGrid build_volume_grid(const HostScene& scene, const HostVolumes& volumes, int threads,
+                                 const LitSurfaces* surfaces) {
     if (!in_range(volumes)) return {};
     if (threads <= 0) threads = usable_threads();
     const std::vector<std::uint32_t> own = count_on_sides(scene, volumes);
@@ -279,7 +282,7 @@ HostVolumeGrid build_volume_grid(const HostScene& scene, const HostVolumes& volu
     NormalTrees trees(view_of(volumes.kd_nodes));
     ChunkQueue queue(0, entries, chunk);
     run_on_plain_threads(threads, [&](int) {
-        SideBuilder builder(scene, volumes, view_of(own), trees, places);
+        SideBuilder builder(scene, volumes, surfaces, view_of(own), trees, places);
         for (IndexRange range = queue.claim(); !range.empty(); range = queue.claim())
             pieces[range.begin / chunk] = builder.build(range);
     });

@@ -4,15 +4,13 @@
 #include "core/fields/volume_grid.h"
 
 namespace pl {
-namespace {
 
-std::shared_ptr<const HostVolumes> with_grid(const RenderBackend& backend, const HostScene& scene,
-                                             HostVolumes volumes) {
-    volumes.grid = build_volume_grid(scene, volumes, backend.info().free_threads());
+std::shared_ptr<const HostVolumes> Placement::with_grid(const RenderBackend& backend, const HostScene& scene,
+                                                        HostVolumes volumes) {
+    const int threads = backend.info().free_threads();
+    volumes.grid = build_volume_grid(scene, volumes, threads, &surfaces(scene, threads));
     return std::make_shared<const HostVolumes>(std::move(volumes));
 }
-
-}  // namespace
 
 void Placement::ensure(RenderBackend& backend, const HostScene& scene, const FieldSettings& settings,
                        const Camera& camera) {

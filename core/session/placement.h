@@ -49,6 +49,9 @@ public:
 
 private:
     const LitSurfaces& surfaces(const HostScene& scene, int threads);
+    /// Builds the volumes' grid.
+    std::shared_ptr<const HostVolumes> with_grid(const RenderBackend& backend, const HostScene& scene,
+                                                 HostVolumes volumes);
 
     std::shared_ptr<const HostVolumes> volumes_;
     std::shared_ptr<const LitSurfaces> surfaces_;  ///< null: not found yet

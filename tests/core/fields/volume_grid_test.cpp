@@ -329,6 +329,29 @@ TEST_CASE("Without volumes grids find none") {
     CHECK(build_volume_grid(pack_scene(SceneDescription{}), {}, 2).sides.empty());
 }
 
+// Light comes from outside of the ball: the inner sides of its triangles stay dark.
+TEST_CASE("Sides that no light reaches are searched, and answered alike") {
+    SceneDescription description = ball(20, 0.8f, 1.0f);
+    description.environment = Vec3f{1.0f};
+    Placed placed = with_grid(description, 500);
+    const HostVolumeGrid whole = placed.volumes.grid;
+    const LitSurfaces surfaces = find_lit_surfaces(placed.scene, 2);
+    placed.volumes.grid = build_volume_grid(placed.scene, placed.volumes, 2, &surfaces);
+    CHECK(compare_on_triangles(placed, 10000).wrong == 0);
+    const auto triangles = static_cast<std::uint32_t>(placed.scene.planes.size());
+    const auto is_searched = [](const HostVolumeGrid& grid, std::uint32_t side) {
+        return grid.sides[side].kind() == VolumePlace::Kind::Search;
+    };
+    std::uint32_t dark = 0;
+    for (std::uint32_t side = 0; side < 2 * triangles; ++side) {
+        const bool is_lit = surfaces.is_lit(side % triangles, side < triangles);
+        CHECK(is_searched(placed.volumes.grid, side) == (!is_lit || is_searched(whole, side)));
+        dark += !is_lit && !is_searched(whole, side) ? 1u : 0u;
+    }
+    CHECK(dark > triangles / 2);  // a grid of all sides has these
+    CHECK(placed.volumes.grid.cells.size() < whole.cells.size());
+}
+
 TEST_CASE("Grids do not depend on the number of threads") {
     const SceneDescription description = ball(20, 0.8f, 1.0f);
     const Placed one = with_grid(description, 2000, 1);
