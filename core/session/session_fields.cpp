@@ -106,12 +106,14 @@ void SessionFields::begin_pass(MethodId method) {
 /// A field that was edited learns by every pass, so that a forgotten volume learns soon.
 bool SessionFields::is_trained_by_pass(MethodId method, std::uint32_t pass) const {
     const FieldProgress& learned = progress(method);
-    return !is_frozen(method) && is_trained_by(pass, learned.is_well_trained && !learned.was_edited);
+    const bool has_enough_samples = learned.is_well_trained && !learned.was_edited;
+    return !is_frozen(method) && is_trained_by(pass, inputs_.settings.next_event, has_enough_samples);
 }
 
 /// An edited field is updated soon, however many passes the film has.
 bool SessionFields::is_update_due(MethodId method, std::uint32_t passes) const {
-    return is_updated_after(passes) || (progress(method).was_edited && passes % kMostTrainingPasses == 0);
+    return is_updated_after(passes, inputs_.settings.next_event) ||
+           (progress(method).was_edited && passes % kMostTrainingPasses == 0);
 }
 
 void SessionFields::count(MethodId method, const PassCounters& counters) {

@@ -348,7 +348,7 @@ TEST_CASE("Sides that no light reaches are searched, and answered alike") {
         CHECK(is_searched(placed.volumes.grid, side) == (!is_lit || is_searched(whole, side)));
         dark += !is_lit && !is_searched(whole, side) ? 1u : 0u;
     }
-    CHECK(dark > triangles / 2);  // a grid of all sides has these
+    CHECK(dark > triangles / 3);  // a grid of all sides has these
     CHECK(placed.volumes.grid.cells.size() < whole.cells.size());
 }
 

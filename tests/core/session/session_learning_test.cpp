@@ -100,12 +100,12 @@ TEST_CASE("a pass that does not train traces the paths of one that does") {
             settings.guiding = GuidingRule::Always;
             settings.field.learning.target = c.target;
             settings.field.representation = c.representation;
-            // Behind the update after six passes both begin with new numbers, which are the same.
+            // Behind the update after four passes both begin with new numbers, which are the same.
             Session trained = make_session(scene, settings);
-            settings.learn_passes = 6;
+            settings.learn_passes = 4;
             Session frozen = make_session(scene, settings);
-            render_passes(trained, 7);
-            render_passes(frozen, 6);
+            render_passes(trained, 5);
+            render_passes(frozen, 4);
             const std::uint64_t records = frozen.field_status(kLearner)->records;
             render_passes(frozen, 1);
             INFO(name << ", representation " << static_cast<int>(c.representation));

@@ -46,34 +46,42 @@ std::uint64_t waiting_records(const Session& session) {
 
 }  // namespace
 
-TEST_CASE("Tables are updated after 1, 2, 3, 4, 6, 8, 12, ... passes: twice while the number of passes doubles") {
-    std::vector<std::uint32_t> updates;
-    for (std::uint32_t passes = 1; passes <= 4096; ++passes)
-        if (is_updated_after(passes)) updates.push_back(passes);
-    std::vector<std::uint32_t> expected{1};
-    for (std::uint32_t octave = 2; octave <= 4096; octave *= 2) {
-        expected.push_back(octave);
-        if (octave < 4096) expected.push_back(octave + octave / 2);
+TEST_CASE("Tables are updated whenever the number of passes has doubled, and without light samples once in between") {
+    for (const bool samples_lights : {true, false}) {
+        std::vector<std::uint32_t> updates;
+        for (std::uint32_t passes = 1; passes <= 4096; ++passes)
+            if (is_updated_after(passes, samples_lights)) updates.push_back(passes);
+        std::vector<std::uint32_t> expected{1};
+        for (std::uint32_t octave = 2; octave <= 4096; octave *= 2) {
+            expected.push_back(octave);
+            if (!samples_lights && octave < 4096) expected.push_back(octave + octave / 2);
+        }
+        CHECK(updates == expected);
+        CHECK(is_updated_after(0x80000000u, samples_lights));
+        CHECK(is_updated_after(0xc0000000u, samples_lights) == !samples_lights);
     }
-    CHECK(updates == expected);
-    CHECK(is_updated_after(0xc0000000u));
 }
 
 TEST_CASE(
     "With enough samples a quarter of the passes train, at most sixteen together, the last ones before each update") {
-    std::uint32_t training = 0, changes = 0;
-    for (std::uint32_t pass = 0; pass < 4096; ++pass) {
-        INFO("pass " << pass);
-        CHECK(is_trained_by(pass, false));
-        if (pass < 16) CHECK(is_trained_by(pass, true));
-        if (is_updated_after(pass + 1)) CHECK(is_trained_by(pass, true));
-        if (pass == 0) continue;
-        training += is_trained_by(pass, true) ? 1u : 0u;
-        changes += is_trained_by(pass, true) != is_trained_by(pass - 1, true) ? 1u : 0u;
+    for (const bool samples_lights : {true, false}) {
+        const std::uint32_t first = samples_lights ? 8 : 16;
+        std::uint32_t training = 0, changes = 0;
+        for (std::uint32_t pass = 0; pass < 4096; ++pass) {
+            INFO("pass " << pass);
+            CHECK(is_trained_by(pass, samples_lights, false));
+            const bool trains = is_trained_by(pass, samples_lights, true);
+            if (pass < first) CHECK(trains);
+            if (is_updated_after(pass + 1, samples_lights)) CHECK(trains);
+            if (pass == 0) continue;
+            training += trains ? 1u : 0u;
+            changes += trains != is_trained_by(pass - 1, samples_lights, true) ? 1u : 0u;
+        }
+        // All of the first 8 or 16; then, in each octave, 2 of 8, 4 of 16, 8 of 32, 16 of 64, and 16 or 32 of the others.
+        CHECK(training == (samples_lights ? 7 + 2 + 4 + 8 + 16 + 16 * 5 : 15 + 4 + 8 + 16 + 32 * 5));
+        // So that a back end may render the passes of either kind at once.
+        CHECK(changes == (samples_lights ? 2u * 9 : 4u * 8));
     }
-    // All of the first 16; 4 of 16 in the next octave, 8 of 32, 16 of 64, then 32 of each.
-    CHECK(training == 15 + 4 + 8 + 16 + 32 * 5);
-    CHECK(changes == 4 * 8);  // so that a back end may render the passes of either kind at once
 }
 
 TEST_CASE("A field with enough samples makes training samples in few passes, whatever the threads and "
@@ -98,15 +106,15 @@ TEST_CASE("A field with enough samples makes training samples in few passes, wha
     const std::uint32_t enough = std::max(session.passes(slot_of(session)), 16u);
     REQUIRE(enough < 40);
     render_passes(session, enough - session.passes(slot_of(session)));
-    for (std::uint32_t pass = enough; pass < enough + 9; ++pass) {
+    for (std::uint32_t pass = enough; pass < enough + 17; ++pass) {
         before = records();
         render_passes(session, 1);
         INFO("pass " << pass);
-        CHECK((records() > before) == is_trained_by(pass, true));
+        CHECK((records() > before) == is_trained_by(pass, true, true));
     }
     Session interrupted = make_session(scene, settings, 1);
     Uniforms random(2);
-    while (interrupted.passes(slot_of(interrupted)) < enough + 9) advance_interrupted(interrupted, random.next());
+    while (interrupted.passes(slot_of(interrupted)) < enough + 17) advance_interrupted(interrupted, random.next());
     CHECK(same_state(state_of(interrupted), state_of(session)));
 
     session.apply(EditForgetVolume{MethodId::Reinforcement, 0});
@@ -175,11 +183,11 @@ TEST_CASE("Random numbers of training samples are not drawn again for another pi
 TEST_CASE("Training samples stay pending until the tables are updated, and none is lost") {
     const SceneDescription scene = shipped_scene("door");
     Session session = make_session(scene, small_settings(scene, kLearningPaths), 2);
-    for (std::uint32_t pass = 1; pass <= 20; ++pass) {
+    for (std::uint32_t pass = 1; pass <= 16; ++pass) {
         render_passes(session, 1);
         INFO("after pass " << pass);
         const std::uint64_t waiting = waiting_records(session);
-        CHECK((waiting == 0) == is_updated_after(pass));
+        CHECK((waiting == 0) == is_updated_after(pass, kLearningPaths.next_event));
         CHECK(sum(tables_of(session.export_field(session.settings().method).field).visits) + waiting ==
               session.field_status(session.settings().method)->records);
     }
@@ -188,7 +196,7 @@ TEST_CASE("Training samples stay pending until the tables are updated, and none 
 TEST_CASE("A picture that begins anew updates the tables after its first pass, with the samples that were pending") {
     const SceneDescription scene = shipped_scene("door");
     Session session = make_session(scene, small_settings(scene, kLearningPaths), 2);
-    render_passes(session, 17);
+    render_passes(session, 13);
     REQUIRE(waiting_records(session) > 0);
     session.apply(EditRestart{});
     render_passes(session, 1);
@@ -201,7 +209,7 @@ TEST_CASE("Pending training samples are saved and loaded with the tables") {
     const SceneDescription scene = shipped_scene("door");
     const RenderSettings settings = small_settings(scene, kLearningPaths);
     Session first = make_session(scene, settings, 2);
-    render_passes(first, 17);
+    render_passes(first, 13);
     const LearnedField field = first.export_field(first.settings().method);
     REQUIRE(sum(tables_of(field.field).pending_count) > 0);
     const TemporaryFolder folder;
@@ -239,7 +247,7 @@ TEST_CASE("Passes that train draw from new sequences after every update, and tho
     const auto run_of = [&](std::uint32_t pass) { return session.pass_replay(slot_of(session)).run_of(pass); };
     render_passes(session, 13);
     for (std::uint32_t pass = 0, first = 0; pass < 13; ++pass) {
-        if (is_updated_after(pass)) first = pass;
+        if (is_updated_after(pass, kLearningPaths.next_event)) first = pass;
         INFO("pass " << pass);
         CHECK(run_of(pass) == PassRun{.first_pass = first,
                                       .first_sample = 8 + first,
