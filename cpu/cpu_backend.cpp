@@ -120,7 +120,7 @@ public:
                                                             .camera = request.camera,
                                                             .sample = request.sample,
                                                             .film = films_.view(request.slot, request.weight()),
-                                                            .block = request.block});
+                                                            .measure = request.measure});
         counters += refine_emission_of(request, static_cast<std::uint32_t>(counters.paths));
         return counters;
     }

@@ -180,7 +180,7 @@ void CudaBackend::add_pass(const PassRequest& request, PathRange pixels, std::ui
            LaunchSamples{.radiance = {samples_.data() + offset, count},
                          .first = pixels.first,
                          .pass = request.sample,
-                         .block = request.block,
+                         .measure = request.measure,
                          .counters = launcher_.counters()});
     const bool refines = request.slot.view == View::Beauty && has_visible_emission(existing_scene().view());
     if (refines) refine_launch(request, pixels, film);

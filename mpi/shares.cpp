@@ -7,7 +7,7 @@ namespace pl {
 
 namespace {
 
-std::uint32_t between_mean_blocks(std::uint32_t pixel) { return pixel - pixel % MeanBlock::kMostPixels; }
+std::uint32_t between_blocks(std::uint32_t pixel) { return pixel - pixel % VarianceMeasure::kBlock; }
 
 }  // namespace
 
@@ -18,12 +18,12 @@ void Shares::cover(std::uint32_t end) {
         // Equal blocks, rather than a short one at the end.
         const std::uint64_t left = (end - begin + most - 1) / most;
         const auto even = begin + static_cast<std::uint32_t>((end - begin + left - 1) / left);
-        const std::uint32_t length = std::min(between_mean_blocks(even + MeanBlock::kMostPixels - 1), end) - begin;
+        const std::uint32_t length = std::min(between_blocks(even + VarianceMeasure::kBlock - 1), end) - begin;
         // Rounded up, so that rank 0 has the first pixel of every block.
         const std::uint32_t last = begin + length;
         for (std::uint64_t i = 0; i <= ranks_; ++i) {
             const auto cut = begin + static_cast<std::uint32_t>((i * length + ranks_ - 1) / ranks_);
-            cuts_.push_back(i == 0 ? begin : std::min(between_mean_blocks(cut + MeanBlock::kMostPixels - 1), last));
+            cuts_.push_back(i == 0 ? begin : std::min(between_blocks(cut + VarianceMeasure::kBlock - 1), last));
         }
         begin = last;
     }
@@ -57,9 +57,9 @@ void Shares::balance_block(std::size_t block, std::span<const double> seconds) {
         while (share + 1 < ranks_ && before + seconds[share] < i * step) before += seconds[share++];
         const double part = seconds[share] > 0.0 ? (i * step - before) / seconds[share] : 0.0;
         const double at = old[share] + std::clamp(part, 0.0, 1.0) * (old[share + 1] - old[share]);
-        const std::uint32_t least = std::min(old[0] + MeanBlock::kMostPixels, old[ranks_]);  // for rank 0
-        cuts[i] = std::clamp(between_mean_blocks(static_cast<std::uint32_t>(at)), std::max(cuts[i - 1], least),
-                             old[ranks_]);
+        const std::uint32_t least = std::min(old[0] + VarianceMeasure::kBlock, old[ranks_]);  // for rank 0
+        cuts[i] =
+            std::clamp(between_blocks(static_cast<std::uint32_t>(at)), std::max(cuts[i - 1], least), old[ranks_]);
     }
 }
 

@@ -17,8 +17,8 @@ inline IndexRange common_part(IndexRange a, IndexRange b) {
 }
 
 /// A film as blocks of pixels, each cut into one contiguous share per rank. A pass ends or is stopped between blocks, so the pixels
-/// rendered are a prefix of the film whatever the number of ranks. No cut divides a block of pixels that variances are measured
-/// against, see MeanBlock.
+/// rendered are a prefix of the film whatever the number of ranks. No cut divides a block of pixels, see
+/// VarianceMeasure::kBlock.
 class Shares {
 public:
     /// Pixels of a share, at most, unless a test asks for fewer: tenths of a second of work, after which a request to stop is honored.

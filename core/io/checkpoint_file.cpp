@@ -12,7 +12,7 @@ namespace pl {
 namespace {
 
 constexpr SealedKind kCheckpointKind{
-    .magic = "PLCHECK\n", .version = 11, .title = "checkpoint", .word = "checkpoint"};
+    .magic = "PLCHECK\n", .version = 12, .title = "checkpoint", .word = "checkpoint"};
 
 /// transfer(), also for the kinds of values that only checkpoints hold. Each works for writing, with constant values, and for
 /// reading.
@@ -68,7 +68,7 @@ public:
     void counters(Counters& counters) {
         PassCounters copy = counters;
         add_counters(copy, counters, [this](auto& value, const auto&) { one(value); });
-        all(copy.variance.sum, copy.variance.samples);
+        all(copy.variance.sum, copy.variance.training_sum, copy.variance.samples);
         if constexpr (!std::is_const_v<Counters>) counters = copy;
     }
 

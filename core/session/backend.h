@@ -70,7 +70,7 @@ struct PassRequest {
     std::uint32_t first_pixel = 0;
     std::uint32_t end_pixel = kToTheLast;
     std::uint32_t most_passes = 1;
-    MeanBlock block{};  ///< that the variance of the samples is measured against, if it is
+    VarianceMeasure measure{};
     const StopFlag* stop = nullptr;
 
     /// The method whose field guides the paths, if it has one.

@@ -124,7 +124,7 @@ PassSchedule FilmRenderer::schedule(FilmSlot slot) const {
     if (!learns_from(slot)) return schedule;
     const std::uint64_t passes = fields_.progress(slot.method).passes;
     schedule.trained = static_cast<std::uint32_t>(std::max(passes, std::uint64_t{film.passes}) - film.passes);
-    schedule.first_sample = PassSchedule::kUnguidedSamples + schedule.trained;
+    schedule.first_sample = PassSchedule::kTrainingSamples + schedule.trained;
     schedule.ramp = weight_ramp(inputs_.settings, slot.method);
     return schedule;
 }

@@ -42,7 +42,7 @@ void GuidedPasses::shape(FilmSlot slot, const FilmProgress& film, PassRequest& r
         request.path.roulette = RouletteRule::Albedo;
     }
     if (!chooses(slot)) return;
-    request.block = film.guiding.block_of(film.passes);
+    request.measure = film.guiding.measure_of(film.passes);
 }
 
 void GuidedPasses::finish_pass(FilmSlot slot, FilmProgress& film) const {

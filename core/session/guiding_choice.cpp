@@ -9,15 +9,14 @@ namespace {
 /// Paths by which a method is measured, at least where that takes no more than kMostPasses.
 constexpr std::uint32_t kMeasuredPaths = 65536;
 /// Passes of each role in the warm-up of a small picture.
-constexpr std::uint32_t kMostPasses = 4;
+constexpr std::uint32_t kMostPasses = 2;
 
 /// Guidance by a table takes this part of a path's time on the shipped scenes; longer paths are extra.
 constexpr double kPrice = 0.6;
-/// After a warm-up guiding pays from this part of its price on, because fields go on learning. With a table that is a ratio of 1.28:
-/// guided paths had at most 1.23 times less variance on the shipped scenes where guiding does not pay, but for one seed of `bar`, and at least
-/// 1.44 times less on the others (256 x 256, six seeds of 14 scenes). Later it has to pay its price: after 64 passes of 96 x 96 pixels the ratios
-/// were at most 1.52 and at least 2.14 (docs/notebook/2026-11-30-all-passes-stay.md).
-constexpr double kLeastGain = 0.8;
+/// After a warm-up guiding pays from this part of its price on, because fields go on learning. With a table that is a ratio of 1.36:
+/// guided paths had at most 1.32 times less variance on the shipped scenes where guiding does not pay, and at least 1.42 times less on the
+/// others (256 x 256, six seeds of 14 scenes). Later it has to pay its price (docs/notebook/2026-11-30-two-passes-ask.md).
+constexpr double kLeastGain = 0.85;
 /// Guiding pays, whatever the variances, where guided paths bring light so many times as often as paths of the baseline: the variance of
 /// the baseline is then only the variance of the light that it has found. The ratio is 12 on labyrinth, 17 on staircase and 4.5 on Veach Ajar, and at most 1.9 in five other rooms of
 /// the literature.
@@ -25,18 +24,21 @@ constexpr double kRatioOfHiddenLight = 2.0;
 
 }  // namespace
 
-void PathNoise::add(const PassCounters& counters) {
+void PathNoise::add_paths(const PassCounters& counters) {
     const auto paths = static_cast<double>(counters.paths);
-    variance_ += counters.variance.mean() * static_cast<double>(counters.variance.samples);
-    samples_ += static_cast<double>(counters.variance.samples);
     lit_ += paths - static_cast<double>(counters.zero_contribution_paths);
     paths_ += paths;
+}
+
+void PathNoise::add_variance(double total, std::uint64_t samples) {
+    variance_ += total;
+    samples_ += static_cast<double>(samples);
 }
 
 void GuidingChoice::begin_film(std::uint32_t pixels, bool is_known) {
     if (is_known) belief_ = pays();
     const std::uint32_t each = std::clamp((kMeasuredPaths + pixels - 1) / pixels, 1u, kMostPasses);
-    schedule_ = {.each = each, .warm_up = belief_ ? 0 : 3 * each};
+    schedule_ = {.each = each, .warm_up = belief_ ? 0 : 2 * each};
 }
 
 GuidingChoice GuidingChoice::restarted() const {
@@ -51,10 +53,7 @@ double GuidingChoice::least_ratio(double guidance, bool is_warm_up) {
 
 PassRole GuidingChoice::role_of(std::uint32_t pass) const {
     const std::uint32_t each = schedule_.each;
-    if (is_warm_up(pass)) {
-        constexpr PassRole kRoles[] = {PassRole::Training, PassRole::Baseline, PassRole::Guided};
-        return kRoles[pass / each];
-    }
+    if (is_warm_up(pass)) return pass < each ? PassRole::Training : PassRole::Guided;
     const std::uint32_t since_question = schedule_.since_question(pass);
     if (since_question == 2 * each) return PassRole::None;
     return pays() == (since_question >= each) ? PassRole::Guided : PassRole::Baseline;
@@ -65,17 +64,21 @@ bool GuidingChoice::is_guided(std::uint32_t pass) const {
     return role == PassRole::Guided || (role == PassRole::None && pays());
 }
 
-/// In a warm-up both methods are measured against training samples: about four of them, of one pixel or a block. Guided passes of the
-/// same half as these would be measured against samples of the baseline and of one another.
-MeanBlock GuidingChoice::block_of(std::uint32_t pass) const {
+VarianceMeasure GuidingChoice::measure_of(std::uint32_t pass) const {
+    using enum VarianceMeasure::Samples;
     const PassRole role = role_of(pass);
-    if (!is_warm_up(pass)) return {role == PassRole::None ? 0u : 1u};
-    const bool is_measured = role == PassRole::Baseline || (role == PassRole::Guided && pass % 2 == 0);
-    return {!is_measured ? 0u : schedule_.each < kMostPasses ? MeanBlock::kMostPixels : 1u};
+    if (role == PassRole::None || role == PassRole::Training) return {};
+    if (is_warm_up(pass)) return {PassAndTraining, static_cast<std::int32_t>(schedule_.each)};
+    return {Pass};
 }
 
 void GuidingChoice::finish_pass(std::uint32_t pass, const PassCounters& counters, double guidance) {
-    if (block_of(pass).is_measured()) (is_guided(pass) ? guided_ : baseline_).add(counters);
+    if (role_of(pass) == PassRole::None) return;
+    PathNoise& own = is_guided(pass) ? guided_ : baseline_;
+    const VarianceSums& measured = counters.variance;
+    own.add_paths(counters);
+    own.add_variance(measured.total(), measured.samples);
+    if (is_warm_up(pass) && is_guided(pass)) baseline_.add_variance(measured.training_total(), measured.samples);
     const std::uint32_t each = schedule_.each;
     const bool is_last =
         is_warm_up(pass) ? pass + 1 == schedule_.warm_up : schedule_.since_question(pass) + 1 == 2 * each;

@@ -19,7 +19,10 @@ enum class GuidingRule : std::uint32_t {
 /// The noise of the paths of one method: sums over passes.
 class PathNoise {
 public:
-    void add(const PassCounters& counters);
+    /// Adds paths of a pass.
+    void add_paths(const PassCounters& counters);
+    /// Adds the relative variances of so many samples: their sum.
+    void add_variance(double total, std::uint64_t samples);
 
     bool is_measured() const { return samples_ > 0.0; }
     double variance() const { return variance_ / samples_; }  ///< relative, of a path's sample; NaN before the first
@@ -44,14 +47,14 @@ private:
 /// What a pass is for, besides the picture.
 enum class PassRole : std::uint32_t {
     None,      ///< by the method that was chosen
-    Training,  ///< paths of the baseline train the field, and make the means that both methods are measured against
+    Training,  ///< paths of the baseline train the field, and are measured against guided ones
     Baseline,  ///< paths of the baseline are measured
     Guided,    ///< guided paths are measured
 };
 
-/// A film of an unknown field begins with a warm-up: passes that train, passes by the baseline, guided passes, as many of each, and then
-/// decides. Later it asks again by as many passes of the method that it has not chosen and of the method that it has, and decides anew.
-/// Which passes these are, and their weights, depends on their numbers alone: PassSchedule.
+/// A film of an unknown field begins with a warm-up: passes that train and guided passes, as many of each, and then decides. Later it asks
+/// again by as many passes of the method that it has not chosen and of the method that it has, and decides anew. Which passes these are,
+/// and their weights, depends on their numbers alone: PassSchedule.
 class GuidingChoice {
 public:
     /// Begins the film. `is_known`: the field has been trained.
@@ -71,8 +74,7 @@ public:
 
     PassRole role_of(std::uint32_t pass) const;
     bool is_guided(std::uint32_t pass) const;
-    /// The pixels whose mean a sample of this pass is measured against.
-    MeanBlock block_of(std::uint32_t pass) const;
+    VarianceMeasure measure_of(std::uint32_t pass) const;
     /// Takes the measurements of a pass that has ended, and decides if it is the last one of a question.
     void finish_pass(std::uint32_t pass, const PassCounters& counters, double guidance);
 

@@ -22,7 +22,7 @@ struct PicturePass {
     Camera camera;
     std::uint32_t sample = 0;
     FilmView film;
-    MeanBlock block{};
+    VarianceMeasure measure{};
 };
 
 /// Arguments of a probe kernel.
@@ -70,7 +70,7 @@ template <FeatureSet F, Method M>
 PassCounters run_picture_pass(const PicturePass& pass) {
     std::conditional_t<TableGuided<M>, LookedUpAhead<M>, M> method;
     configure_method(method, pass.field, pass.settings);
-    const PictureWork<F, decltype(method)> work{pass.camera, pass.sample, pass.film, pass.block};
+    const PictureWork<F, decltype(method)> work{pass.camera, pass.sample, pass.film, pass.measure};
     return run_paths<F>(pass.setup, pass.tracer, method, work);
 }
 

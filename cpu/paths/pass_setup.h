@@ -113,7 +113,7 @@ struct PictureWork {
     Camera camera;
     std::uint32_t sample = 0;
     FilmView film;
-    MeanBlock block{};
+    VarianceMeasure measure{};
 
     std::uint32_t count() const { return film.pixels.count; }
     StartKey start_key(const PathSettings& path) const {
@@ -133,7 +133,7 @@ struct PictureWork {
     }
     void prefetch(std::uint32_t pixel) const { __builtin_prefetch(&film.pixels[pixel], 1); }
     bool finish(const PathState<F, M>& state, PassCounters& counters) const {
-        return add_sample(film, state.pixel, state.radiance, sample, block, counters.variance);
+        return add_sample(film, state.pixel, state.radiance, sample, measure, counters.variance);
     }
 
 private:

@@ -12,10 +12,11 @@ __global__ void __launch_bounds__(kThreadsPerBlock)
     const std::uint32_t i = thread_number();
     VarianceSums sums;
     if (i < samples.radiance.count)
-        (void)add_sample(film, samples.first + i, samples.radiance[i], samples.pass, samples.block, sums);
-    if (!samples.block.is_measured()) return;
+        (void)add_sample(film, samples.first + i, samples.radiance[i], samples.pass, samples.measure, sums);
+    if (!samples.measure.is_any()) return;
     VarianceSums& totals = samples.counters->variance;
     add_up(totals.sum, sums.sum);
+    add_up(totals.training_sum, sums.training_sum);
     add_up(totals.samples, sums.samples);
 }
 

@@ -162,7 +162,7 @@ struct LaunchSamples {
     Span<const Vec3f> radiance;
     std::uint32_t first = 0;  ///< pixel of the first one
     std::uint32_t pass = 0;
-    MeanBlock block{};
+    VarianceMeasure measure{};
     PassCounters* counters = nullptr;  ///< its variance is incremented
 };
 /// kAddSamples adds the samples of a launch, kSetSamples replaces the samples of the film. One thread

@@ -88,6 +88,6 @@ TEST_CASE("No cut divides a block of pixels that variances are measured against"
             for (const Shares& made : {shares, shares.balanced(seconds)})
                 for (int rank = 0; rank < ranks; ++rank)
                     for (const IndexRange& range : made.shares_of(rank))
-                        CHECK(range.begin % MeanBlock::kMostPixels == 0);
+                        CHECK(range.begin % VarianceMeasure::kBlock == 0);
         }
 }

@@ -14,14 +14,14 @@ struct PassSchedule {
     std::uint32_t trained = 0;       ///< passes that have trained the field before the first one
     std::uint32_t ramp = 1;     ///< trained passes until the weight is constant, where there is no choice of guiding
     std::uint32_t each = 0;     ///< passes of a role, see PassRole; 0: there is no choice
-    std::uint32_t warm_up = 0;  ///< passes of the warm-up: three roles, or none
+    std::uint32_t warm_up = 0;  ///< passes of the warm-up: two roles, or none
 
-    /// Samples of a learning method that are kept for the unguided passes of a warm-up.
-    static constexpr std::uint32_t kUnguidedSamples = 8;
+    /// Samples of a learning method that are kept for the training passes of a warm-up.
+    static constexpr std::uint32_t kTrainingSamples = 8;
 
-    /// Weights of unguided passes of a warm-up and of the other method's passes in a question, of guided passes of a warm-up, and of all
-    /// others. Weights by the inverses of variances, which are unknown beforehand, would be best; these lose little where guiding pays by
-    /// far, and where it does not (docs/notebook/2026-11-30-all-passes-stay.md).
+    /// Weights of training passes of a warm-up and of the other method's passes in a question, of guided passes of a warm-up, and of all
+    /// others. Weights by the inverses of variances, which are unknown beforehand, would be best
+    /// (docs/notebook/2026-11-30-all-passes-stay.md has what these lose).
     static constexpr std::uint32_t kWeightOfQuestion = 1;
     static constexpr std::uint32_t kWeightOfYoungField = 4;
     static constexpr std::uint32_t kWeight = 8;
@@ -32,11 +32,11 @@ struct PassSchedule {
     /// Each further question comes so many times as late.
     static constexpr std::uint32_t kQuestionFactor = 4;
 
-    /// The number of a pass for its random numbers. Training passes of a warm-up have odd numbers and passes of the baseline even ones:
-    /// each have a half of the film of their own.
+    /// The number of a pass for its random numbers. Training passes of a warm-up have odd numbers and its guided passes even ones: each
+    /// have a half of the film of their own.
     PL_HD std::uint32_t sample_of(std::uint32_t pass) const {
-        if (pass >= warm_up / 3 * 2) return first_sample + pass;
-        return pass < each ? 2 * pass + 1 : 2 * (pass - each);
+        if (pass >= warm_up) return first_sample + pass;
+        return pass < each ? 2 * pass + 1 : first_sample + 2 * (pass - each);
     }
 
     /// The number of passes since the beginning of the question that a pass after the warm-up belongs to, below 2 * each; else 2 * each.
@@ -48,7 +48,7 @@ struct PassSchedule {
 
     PL_HD std::uint32_t weight_of(std::uint32_t pass) const {
         if (each == 0) return min_of(min_of(trained, ramp) + min_of(pass, ramp) + 1, ramp);
-        if (pass < warm_up) return pass < 2 * each ? kWeightOfQuestion : kWeightOfYoungField;
+        if (pass < warm_up) return pass < each ? kWeightOfQuestion : kWeightOfYoungField;
         return since_question(pass) < each ? kWeightOfQuestion : kWeight;
     }
 };

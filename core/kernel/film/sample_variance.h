@@ -9,8 +9,9 @@ namespace pl {
 /// Sums over pixels of the relative variance of one sample, the mean of its channels: the integrand of a relMSE. Signed fixed point in
 /// two's complement: the same for every order of the samples.
 struct VarianceSums {
-    std::uint64_t sum = 0;      ///< in steps; biased, see measure_variance()
-    std::uint64_t samples = 0;  ///< measured ones
+    std::uint64_t sum = 0;           ///< in steps; biased, see measure_variance()
+    std::uint64_t training_sum = 0;  ///< of the training samples that these were measured against
+    std::uint64_t samples = 0;       ///< measured ones
 
     /// Contributions of one sample are clamped here, so that a single path decides nothing: far above 1, because rare bright paths are
     /// most of the variance that guiding can take away (docs/notebook/2026-11-29-one-ratio.md).
@@ -21,78 +22,94 @@ struct VarianceSums {
 
     VarianceSums& operator+=(const VarianceSums& other) {
         sum += other.sum;
+        training_sum += other.training_sum;
         samples += other.samples;
         return *this;
     }
 
-    /// The mean relative variance of a measured sample; 0 if none was measured.
-    double mean() const {
-        if (samples == 0) return 0.0;
-        return static_cast<double>(static_cast<std::int64_t>(sum)) / (kSteps * static_cast<double>(samples));
-    }
+    /// The relative variances of all measured samples, and of the training samples: sums.
+    double total() const { return units_of(sum); }
+    double training_total() const { return units_of(training_sum); }
 
-    /// Adds the variance of one sample, by channels, over mean^2 + kLeastSquare.
-    PL_HD void add(Vec3f variance, Vec3f mean) {
+    /// The steps of a variance, by channels, over mean^2 + kLeastSquare.
+    PL_HD static std::int64_t steps_of(Vec3f variance, Vec3f mean) {
         const Vec3f over = variance / (mean * mean + Vec3f{kLeastSquare});
-        sum += steps_of((over.x + over.y + over.z) * kThird);
-        ++samples;
+        const float value = (over.x + over.y + over.z) * kThird;
+        // The largest one for the difference of two infinities, too.
+        const float bounded = value < kMost ? max_of(value, -kMost) : kMost;
+        return static_cast<std::int64_t>(static_cast<double>(bounded) * kSteps);
     }
 
 private:
     static constexpr float kThird = 1.0f / 3.0f;
 
-    /// The largest one for the difference of two infinities, too.
-    PL_HD static std::uint64_t steps_of(float value) {
-        const float bounded = value < kMost ? max_of(value, -kMost) : kMost;
-        return static_cast<std::uint64_t>(static_cast<std::int64_t>(static_cast<double>(bounded) * kSteps));
+    static double units_of(std::uint64_t steps) {
+        return static_cast<double>(static_cast<std::int64_t>(steps)) / kSteps;
     }
 };
 
-/// Pixels whose earlier samples a sample is measured against: neighbors in a row of memory, which begin at multiples of their number.
-struct MeanBlock {
-    std::uint32_t pixels = 0;  ///< 0: samples are not measured
+/// Which samples of a film are measured, and against which: see measure_variance().
+struct VarianceMeasure {
+    enum class Samples : std::uint32_t {
+        None,
+        Pass,             ///< the pass's own ones, against the half of the film that the pass does not belong to
+        PassAndTraining,  ///< and the second half, which is training samples
+    };
+    Samples samples = Samples::None;
+    std::int32_t training = 0;  ///< training samples of a pixel
 
-    static constexpr std::uint32_t kMostPixels = 4;
+    /// Neighbors in a row of memory, which begin at multiples of their number: training samples of a pixel are few, so that the
+    /// mean radiance is known from them.
+    static constexpr std::uint32_t kBlock = 4;
 
-    PL_HD bool is_measured() const { return pixels > 0; }
+    PL_HD bool is_any() const { return samples != Samples::None; }
 };
 
-/// Mean of the half of a block's samples that a pass does not belong to; NaN if there are none. Other
-/// threads may add samples of the same pass to the block meanwhile: with several pixels the pass has to be of the first half, so that the
-/// sums read here stay as they are.
-PL_HD inline Vec3f mean_behind(const FilmView& film, std::uint32_t pixel, std::uint32_t pass, MeanBlock block) {
-    const std::uint32_t begin = pixel - pixel % block.pixels;
-    const std::uint32_t end = min_of(begin + block.pixels, film.pixels.count);
-    PL_ASSERT(block.pixels == 1 || !in_second_half(pass));
+/// The mean of the second half of a pixel's neighbors in its block, without the pixel itself; NaN if they have no samples.
+PL_HD inline Vec3f mean_around(const FilmView& film, std::uint32_t pixel) {
+    const std::uint32_t begin = pixel - pixel % VarianceMeasure::kBlock;
+    const std::uint32_t end = min_of(begin + VarianceMeasure::kBlock, film.pixels.count);
     Vec3d sum{0.0};
     std::uint64_t weight = 0;
     for (std::uint32_t i = begin; i < end; ++i) {
-        const FilmPixel& p = film.pixels[i];
-        sum += in_second_half(pass) ? p.sum - p.second_sum : p.second_sum;
-        weight += in_second_half(pass) ? p.weight - p.second_weight : p.second_weight;
+        if (i == pixel) continue;
+        sum += film.pixels[i].second_sum;
+        weight += film.pixels[i].second_weight;
     }
     return weight == 0 ? Vec3f{kNan} : Vec3f{sum * (1.0 / static_cast<double>(weight))};
 }
 
-/// Measures the variance of a sample that is about to come to a pixel. With the mean m of earlier samples, L (L - m) is an
-/// unbiased estimate of the variance of an independent sample L; where m is the mean of a block of pixels, the mean over the block also
-/// holds the variance of their means. Samples of one half of the film are spread evenly, and so
-/// depend on one another: m is the mean of the half that the pass does not belong to. Divided by m^2 it has a bias that vanishes with the
-/// number of samples behind m: methods are compared against the same m. Pixels that see a lamp are left out: their
-/// variance is the variance of emission, which no sampling of directions changes, see camera_emission.h.
+/// Measures the variance of a sample L that is about to come to a pixel. With the mean m of earlier independent samples, L (L - m) is an
+/// unbiased estimate of its variance, and n m (m - L) of the variance of one of the n training samples behind m; a bright one of these is
+/// clamped as it would be alone, as n m (n m - n L) / n. Samples of one half of the film are spread evenly, and so depend on one another: m
+/// is the mean of the half that the pass does not belong to. Divided by a squared mean, both have a bias that vanishes with the number of
+/// samples behind that mean: methods are compared over the same one, m or, for training samples, the mean of the pixel's neighbors. Pixels
+/// that see a lamp are left out: their variance is the variance of emission, which no sampling of directions changes, see
+/// camera_emission.h. Other threads may add samples of the same pass to neighbors: with training samples the pass has to be of the first
+/// half, so that what is read of them stays.
 PL_HD inline void measure_variance(const FilmView& film, std::uint32_t pixel, Vec3f radiance, std::uint32_t pass,
-                                   MeanBlock block, VarianceSums& sums) {
-    const EmissionSeen& emission = film.pixels[pixel].emission;
-    const bool sees_lamp = emission.is_lit() || emission.varies != 0 || emission.at_border != 0;
+                                   VarianceMeasure measure, VarianceSums& sums) {
+    const bool has_training = measure.samples == VarianceMeasure::Samples::PassAndTraining;
+    PL_ASSERT(!has_training || !in_second_half(pass));
+    const FilmPixel& p = film.pixels[pixel];
+    const bool sees_lamp = p.emission.is_lit() || p.emission.varies != 0 || p.emission.at_border != 0;
     if (sees_lamp || !is_valid_radiance(radiance)) return;
-    const Vec3f mean = mean_behind(film, pixel, pass, block);
-    if (mean.x == mean.x) sums.add(radiance * (radiance - mean), mean);
+    const Vec3f mean = half_mean(p, !in_second_half(pass));
+    const Vec3f over = has_training ? mean_around(film, pixel) : mean;
+    if (mean.x != mean.x || over.x != over.x) return;
+    ++sums.samples;
+    sums.sum += static_cast<std::uint64_t>(VarianceSums::steps_of(radiance * (radiance - mean), over));
+    if (!has_training) return;
+    const Vec3f total = static_cast<float>(measure.training) * mean;
+    const Vec3f expected = static_cast<float>(measure.training) * radiance;
+    const std::int64_t steps = VarianceSums::steps_of(total * (total - expected), over);
+    sums.training_sum += static_cast<std::uint64_t>(steps / measure.training);
 }
 
-/// Adds the sample of a pass, and measures its variance if there is a block. Returns false if the sample is invalid.
+/// Adds the sample of a pass, and measures what is to be measured. Returns false if the sample is invalid.
 PL_HD inline bool add_sample(const FilmView& film, std::uint32_t pixel, Vec3f radiance, std::uint32_t pass,
-                             MeanBlock block, VarianceSums& sums) {
-    if (block.is_measured()) measure_variance(film, pixel, radiance, pass, block, sums);
+                             VarianceMeasure measure, VarianceSums& sums) {
+    if (measure.is_any()) measure_variance(film, pixel, radiance, pass, measure, sums);
     return accumulate(film, pixel, radiance, pass);
 }
 

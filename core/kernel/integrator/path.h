@@ -134,7 +134,7 @@ struct PassCountersOf {
     Count paths = 0;  ///< finished: pixels of a picture pass, probes of a precomputation
     Count zero_contribution_paths = 0;
     Count invalid_samples = 0;
-    VarianceSums variance;  ///< of the samples measured, see MeanBlock
+    VarianceSums variance;  ///< of the samples measured, see VarianceMeasure
 };
 using PassCounters = PassCountersOf<std::uint64_t>;
 

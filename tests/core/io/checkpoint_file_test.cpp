@@ -37,7 +37,7 @@ TEST_CASE("A checkpoint is read as it was written") {
     CHECK(read.state.films[0].pixels[5].emission.varies == 3);
     CHECK(read.state.films[0].progress.runs == small_checkpoint().state.films[0].progress.runs);
     CHECK(read.state.films[0].progress.updates_seen == 4);
-    CHECK(read.state.films[0].progress.guiding.schedule().warm_up == 12);
+    CHECK(read.state.films[0].progress.guiding.schedule().warm_up == 4);
     CHECK(read.state.films[1].progress.guiding.schedule().warm_up == 0);
     CHECK(read.state.fields[0].progress == small_checkpoint().state.fields[0].progress);
     CHECK(written(folder, read) == bytes);
@@ -68,7 +68,7 @@ TEST_CASE("Other files, other versions and missing files are no checkpoints") {
     std::string bytes = written(folder, small_checkpoint());
     bytes[kVersionOffset] = 99;
     CHECK_THAT(input_error([&] { read_checkpoint(folder.write("f", sealed(bytes))); }),
-               contains("f: checkpoint of another version: expected 11, got 99"));
+               contains("f: checkpoint of another version: expected 12, got 99"));
 }
 
 TEST_CASE("A checkpoint whose forgotten volumes do not exist is refused") {

@@ -34,10 +34,10 @@ TEST_CASE("Guiding is given up where it changes nothing but the cost, by both gu
         REQUIRE(status);
         REQUIRE(status->variance_ratio);
         INFO(info_of(method).name << ": " << *status->variance_ratio);
-        CHECK(*status->variance_ratio < 1.28);
+        CHECK(*status->variance_ratio < 1.36);
         CHECK(*status->variance_ratio > 0.7);
         CHECK_FALSE(status->pays);
-        CHECK(status->unguided_passes == kPasses - 4);
+        CHECK(status->unguided_passes == kPasses - 2);
         CHECK(session.snapshot(slot_of(session)).counters.paths == std::uint64_t{kPasses} * 80 * 80);
     }
 }
@@ -88,7 +88,7 @@ TEST_CASE("A large picture that guiding does not pay in has one guided pass") {
         CHECK(session.snapshot(slot).counters.paths == std::uint64_t{kFewPasses} * 256 * 256);
         CHECK(session.field_status(method)->records > 0);
         const PassReplay replay = session.pass_replay(slot);
-        for (std::uint32_t pass = 0; pass < kFewPasses; ++pass) CHECK(replay.is_guided(pass) == (pass == 2));
+        for (std::uint32_t pass = 0; pass < kFewPasses; ++pass) CHECK(replay.is_guided(pass) == (pass == 1));
     }
 }
 
@@ -120,10 +120,10 @@ TEST_CASE("The map of a large picture is completed where guiding pays, whatever 
     settings.guiding = GuidingRule::Paying;
     settings.field.volumes = 800;
     Session whole = make_session(scene, settings, 2);
-    render_passes(whole, 3);
+    render_passes(whole, 2);
     REQUIRE(whole.guiding_status(slot_of(whole))->pays);
     CHECK(whole.field_status(MethodId::Precomputed)->precomputed_share < 1.0);
-    render_passes(whole, 1);
+    render_passes(whole, 2);
     CHECK(whole.field_status(MethodId::Precomputed)->precomputed_share == 1.0);
     CHECK(whole.pass_replay(slot_of(whole)).is_guided(3));
     Session stopped = make_session(scene, settings, 1);
@@ -143,11 +143,11 @@ TEST_CASE("A large picture that guiding pays in is guided after its warm-up, and
     CHECK(status.pays);
     REQUIRE(status.variance_ratio);
     CHECK(*status.variance_ratio > 1.3);
-    CHECK(status.unguided_passes == 2);
+    CHECK(status.unguided_passes == 1);
     const PassReplay replay = session.pass_replay(slot);
-    for (std::uint32_t pass = 0; pass < 4; ++pass) CHECK(replay.is_guided(pass) == (pass >= 2));
-    // Weights of 1, 1, 4 and 8.
-    CHECK(session.backend_access().read_film(slot).weight == 14u * 256 * 256);
+    for (std::uint32_t pass = 0; pass < 4; ++pass) CHECK(replay.is_guided(pass) == (pass > 0));
+    // Weights of 1, 4, 8 and 8.
+    CHECK(session.backend_access().read_film(slot).weight == 21u * 256 * 256);
     CameraDescription camera = scene.camera;
     camera.fov_deg *= 0.9f;
     session.apply(EditCamera{camera});
@@ -157,7 +157,7 @@ TEST_CASE("A large picture that guiding pays in is guided after its warm-up, and
     // A field that is forgotten is asked for again.
     session.apply(EditForget{});
     render_passes(session, 2);
-    CHECK(session.guiding_status(slot)->unguided_passes == 2);
+    CHECK(session.guiding_status(slot)->unguided_passes == 1);
 }
 
 // Tables that guide a pass are independent of its numbers: no number of a sample comes twice while the field lives.
@@ -211,7 +211,7 @@ TEST_CASE("A replay knows the passes that were not guided") {
     std::uint32_t unguided = 0;
     for (std::uint32_t pass = 0; pass < kPasses; ++pass) unguided += replay.is_guided(pass) ? 0u : 1u;
     CHECK_FALSE(replay.is_guided(0));
-    CHECK(replay.is_guided(8));
+    CHECK(replay.is_guided(2));
     CHECK(unguided == session.guiding_status(slot_of(session))->unguided_passes);
 }
 
