@@ -232,8 +232,8 @@ void add_state_badges(BadgeRow& row, const ViewerModel& model) {
     if (!info_of(model.render().settings().method).learns || !status.field || model.frame() == nullptr) return;
     if (status.field->is_frozen)
         row.add(whose(model, 0) + "learning frozen after " + passes_text(status.field->passes), colors::kWarning);
-    else if (status.state == WorkerState::Rendering && model.frame()->snapshot.slot.view == View::Beauty &&
-             !is_given_up(*model.frame()))
+    else if (status.state == WorkerState::Rendering && status.field->passes > 0 &&
+             model.frame()->snapshot.slot.view == View::Beauty && !is_given_up(*model.frame()))
         row.add(whose(model, 0) + "learning, " + passes_text(status.field->passes), colors::kGood);
 }
 
@@ -303,7 +303,8 @@ void draw_toasts(const ViewerModel& model, const Layout& layout, const ComparePl
     const Rect& view = layout.clear;
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
     ImVec2 corner{view.x + em(0.6f), view.y + view.height - em(0.6f)};
-    corner.y = std::min({corner.y, top_of_names(plan) - em(0.6f), gui_memory().low_card_start - em(0.6f)});
+    if (!plan.tiles.empty()) corner.y = std::min(corner.y, top_of_names(plan, {}) - em(0.6f));
+    corner.y = std::min(corner.y, gui_memory().low_card_start - em(0.6f));
     const float width = std::min(view.width - em(1.2f), em(34.0f));
     for (auto toast = model.messages().toasts().rbegin(); toast != model.messages().toasts().rend(); ++toast)
         corner.y -= draw_toast(list, corner, width, toast->level, toast->text) + em(0.35f);

@@ -88,8 +88,9 @@ void draw_handle(ViewerModel& model, const CompareTile& tile, float x) {
 
 }  // namespace
 
-float top_of_names(const ComparePlan& plan) {
-    float top = std::numeric_limits<float>::infinity();
+float top_of_names(const ComparePlan& plan, const Rect& image) {
+    float top =
+        plan.tiles.empty() ? label_place({{}, image, image, "", 0, false}).y : std::numeric_limits<float>::infinity();
     for (const CompareTile& tile : plan.tiles) top = std::min(top, label_place(tile).y);
     return top;
 }

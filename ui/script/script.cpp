@@ -25,12 +25,25 @@ struct CommandWord {
     Kind kind;
 };
 constexpr std::array kWords{
-    CommandWord{"move", Kind::Move},     CommandWord{"aim", Kind::Aim},       CommandWord{"aim_plot", Kind::AimPlot},
-    CommandWord{"aim_at", Kind::AimAt},  CommandWord{"down", Kind::Down},     CommandWord{"up", Kind::Up},
-    CommandWord{"wheel", Kind::Wheel},   CommandWord{"key", Kind::Key},       CommandWord{"keyup", Kind::KeyUp},
-    CommandWord{"tap", Kind::Tap},       CommandWord{"resize", Kind::Resize}, CommandWord{"drop", Kind::Drop},
-    CommandWord{"type", Kind::Type},     CommandWord{"monkey", Kind::Monkey}, CommandWord{"shot", Kind::Shot},
-    CommandWord{"expect", Kind::Expect}, CommandWord{"wait", Kind::Wait},     CommandWord{"wait_spp", Kind::Wait},
+    CommandWord{"move", Kind::Move},
+    CommandWord{"aim", Kind::Aim},
+    CommandWord{"aim_plot", Kind::AimPlot},
+    CommandWord{"aim_at", Kind::AimAt},
+    CommandWord{"down", Kind::Down},
+    CommandWord{"up", Kind::Up},
+    CommandWord{"wheel", Kind::Wheel},
+    CommandWord{"key", Kind::Key},
+    CommandWord{"keyup", Kind::KeyUp},
+    CommandWord{"tap", Kind::Tap},
+    CommandWord{"resize", Kind::Resize},
+    CommandWord{"drop", Kind::Drop},
+    CommandWord{"type", Kind::Type},
+    CommandWord{"monkey", Kind::Monkey},
+    CommandWord{"shot", Kind::Shot},
+    CommandWord{"expect", Kind::Expect},
+    CommandWord{"wait", Kind::Wait},
+    CommandWord{"wait_spp", Kind::Wait},
+    CommandWord{"keep_places", Kind::KeepPlaces},
     CommandWord{"quit", Kind::Quit},
 };
 constexpr std::array<std::string_view, 7> kOperators{"==", "!=", "<", "<=", ">", ">=", "~"};
@@ -189,6 +202,7 @@ void read_arguments(ScriptLine& line, std::string_view word, ScriptCommand& comm
             command.condition = {"spp", ">=", fmt::format("{}", line.number("a number of samples"))};
         }
         break;
+    case Kind::KeepPlaces:
     case Kind::Quit: break;
     }
     line.end();

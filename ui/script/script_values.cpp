@@ -96,15 +96,6 @@ std::string tooltip_place(const ViewerModel&) {
     return is_over ? "over" : "beside";
 }
 
-/// Lines between the title of the learning section in the layout Explore and its button: they must not change with the numbers.
-std::string learning_rows(const ViewerModel&) {
-    const auto& places = gui_memory().places;
-    const auto title = places.find("Learning");
-    const auto button = places.find("Forget the learned field");
-    if (title == places.end() || button == places.end()) return "none";
-    return fmt::format("{:.1f}", (button->second.y - title->second.y) / ImGui::GetTextLineHeightWithSpacing());
-}
-
 /// "96,134", "none".
 std::string pointed_at(const ViewerModel& model) {
     const auto& pointed = model.window().pointed;
@@ -169,7 +160,7 @@ constexpr std::array kValues{
     Value{"tooltip_place", tooltip_place},
     Value{"panels", [](const ViewerModel& m) { return word(m.window().panels.shown); }},
     Value{"badges", [](const ViewerModel&) { return gui_memory().badges; }},
-    Value{"learning_rows", learning_rows},
+    Value{"moved", [](const ViewerModel&) { return gui_memory().moved.empty() ? "none" : gui_memory().moved; }},
     Value{"theme", [](const ViewerModel& m) { return std::string(pl::name_of(m.window().theme)); }},
     Value{"keyed_panel",
           [](const ViewerModel& m) {
