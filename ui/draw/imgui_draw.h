@@ -58,6 +58,7 @@ class PictureTextures;
 
 struct GuiMemory {
     PictureTextures* textures = nullptr;  ///< of the window's renderer
+    std::uint64_t textures_made = 0;      ///< for pictures: a new one may have the address of one that is gone
     int keyed_panel = -1;                 ///< the panel that was given the keyboard in the last frame; -1: none
     float pointer_rest_seconds = 0.0f;    ///< since the pointer moved: tooltips wait for rest
     float top_card_end = 0.0f;     ///< lower edge of the card over the picture's top in the last frame; 0 without one
@@ -120,6 +121,7 @@ private:
     SDL_Renderer* renderer_;
     SDL_Texture* fonts_ = nullptr;
     bool keeps_windows_;
+    std::uint64_t textures_made_ = 0;                         ///< when the windows were kept
     std::map<std::string, KeptWindow, std::less<>> windows_;  ///< by their names
     std::size_t copied_ = 0;
 };
