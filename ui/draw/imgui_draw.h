@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <map>
 #include <string>
 #include <vector>
@@ -61,10 +62,11 @@ struct GuiMemory {
     std::uint64_t textures_made = 0;      ///< for pictures: a new one may have the address of one that is gone
     int keyed_panel = -1;                 ///< the panel that was given the keyboard in the last frame; -1: none
     float pointer_rest_seconds = 0.0f;    ///< since the pointer moved: tooltips wait for rest
-    float top_card_end = 0.0f;     ///< lower edge of the card over the picture's top in the last frame; 0 without one
-    float low_card_start = 0.0f;   ///< upper edge of the one over its bottom; infinite without one
-    float low_card_height = 0.0f;  ///< of the last such card: cards follow their text
-    std::string badges{};          ///< over the picture in the last frame, for scripts
+    float top_card_end = 0.0f;  ///< lower edge of the card over the picture's top in the last frame; 0 without one
+    float low_card_start =
+        std::numeric_limits<float>::infinity();  ///< upper edge of the one over its bottom; infinite without one
+    float low_card_height = 0.0f;                ///< of the last such card: cards follow their text
+    std::string badges{};                        ///< over the picture in the last frame, for scripts
     /// Rectangles of the controls in the last frame by their labels: scripts point at them.
     std::map<std::string, Rect, std::less<>> places;
     std::string moved{};  ///< controls that have left the place they had when a script asked them to keep it

@@ -306,8 +306,12 @@ void draw_toasts(const ViewerModel& model, const Layout& layout, const ComparePl
     if (!plan.tiles.empty()) corner.y = std::min(corner.y, top_of_names(plan, {}) - em(0.6f));
     corner.y = std::min(corner.y, gui_memory().low_card_start - em(0.6f));
     const float width = std::min(view.width - em(1.2f), em(34.0f));
-    for (auto toast = model.messages().toasts().rbegin(); toast != model.messages().toasts().rend(); ++toast)
+    const Rect& badges = gui_memory().places["badges"];
+    for (auto toast = model.messages().toasts().rbegin(); toast != model.messages().toasts().rend(); ++toast) {
+        // Older ones have no room where badges are.
+        if (toast != model.messages().toasts().rbegin() && corner.y < badges.y + badges.height + em(2.0f)) break;
         corner.y -= draw_toast(list, corner, width, toast->level, toast->text) + em(0.35f);
+    }
 
     if (!model.camera().is_speed_shown()) return;
     const std::string text = fmt::format("speed {:.4g} units/s", model.camera().speed());
