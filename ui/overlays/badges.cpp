@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -262,6 +263,9 @@ void draw_badges(ViewerModel& model, const Layout& layout, const ComparePlan& pl
     add_state_badges(row, model);
     if (model.display().cells())
         row.add(fmt::format("volumes {:.0f} %", 100.0f * model.display().cells_opacity()), colors::kText);
+    if (const auto past = model.time().shown_frame(); past && model.display().cells())
+        row.add_heat_legend(fmt::format("entropy after {}, 0 to {:g} bits", passes_text(past->passes()),
+                                        std::log2(static_cast<float>(past->bins()))));
     add_field_badge(row, model);
     if (model.busy() && !model.references().progress() && !model.diagnostics().share())
         row.add("working", colors::kFaint);

@@ -233,7 +233,9 @@ void RenderLoop::render() {
     }
     if (turns_) turns_->count(turns_->side(), at_work(), shown_.view);
     const bool is_last = now_.paused || now_.is_enough(passes(), seconds());
-    if (is_whole && runs_.observe(at_work(), slot(), is_last)) outbox_.set_runs(runs_.runs());
+    const bool is_late =
+        *inbox_.edit_flag();  // measuring takes as long as a frame, and the picture is about to change
+    if (is_whole && !is_late && runs_.observe(at_work(), slot(), is_last)) outbox_.set_runs(runs_.runs());
     update_status();
     if (now_.once.steps > 0 || limit_reached() || now_.paused) frames_.ask();
 }
