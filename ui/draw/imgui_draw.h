@@ -2,6 +2,7 @@
 // and changed its name twice; this one works with all versions.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <limits>
 #include <map>
@@ -17,8 +18,6 @@
 #else
 #include <backends/imgui_impl_sdl.h>
 #endif
-
-#include <cstdint>
 
 struct SDL_Renderer;
 struct SDL_Texture;
@@ -77,14 +76,6 @@ void create_gui_context(GuiMemory& memory);
 
 /// Of the present ImGui context.
 GuiMemory& gui_memory();
-
-}  // namespace pl::ui
-
-struct ImDrawData;
-struct SDL_Renderer;
-struct SDL_Texture;
-
-namespace pl::ui {
 
 /// A software renderer takes most of the time of a frame, and most panels are as they were: an opaque window that is equal in two frames
 /// is drawn into a texture, and copied from then on.

@@ -74,17 +74,18 @@ void draw_offer(ViewerModel& model) {
 
 void draw_step(ViewerModel& model) {
     GuidedTour& tour = model.tour();
-    const std::span<const TourStep> steps = tour_steps();
-    const TourStep& step = steps[static_cast<std::size_t>(tour.step())];
     // Above the text, whose lines change with what was measured: they keep their place through all steps.
     ImGui::BeginDisabled(tour.step() == 0);
-    const bool wants_last = button("Back", "tour: back");
+    if (button("Back", "tour: back")) tour.last_step(model);
     ImGui::EndDisabled();
     ImGui::SameLine();
-    const bool wants_next = button("Next", "tour: next");
+    if (button("Next", "tour: next")) tour.next_step(model);
     ImGui::SameLine();
-    const bool wants_out = button("Leave the tour", "tour: leave");
+    if (button("Leave the tour", "tour: leave")) tour.leave();
     tooltip("F4 continues it here.");
+    if (tour.phase() != Phase::Running) return;
+    const std::span<const TourStep> steps = tour_steps();
+    const TourStep& step = steps[static_cast<std::size_t>(tour.step())];
     text_line(fmt::format("{} of {}   {}", tour.step() + 1, steps.size(), step.title).c_str(), colors::kAccent);
     text_line(step.text, colors::kText);
     if (tour.is_seen())
@@ -93,9 +94,6 @@ void draw_step(ViewerModel& model) {
         text_line(step.task, colors::kWarning);
     if (!model.comparison().in_turns())
         text_line("The turns have ended: X lets both halves go on.", colors::kWarning);
-    if (wants_last) tour.last_step(model);
-    if (wants_next) tour.next_step(model);
-    if (wants_out) tour.leave();
 }
 
 void draw_end(ViewerModel& model) {

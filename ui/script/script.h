@@ -4,7 +4,7 @@
 //   FRAME key K [MODS] | keyup K
 //   FRAME tap K [MODS] | resize W H | drop FILE
 //   FRAME type TEXT | monkey SEED EVENTS | keep_places
-//   FRAME shot FILE | expect NAME OP VALUE | wait NAME OP VALUE [within N] | wait_spp N | quit
+//   FRAME shot FILE | expect NAME OP VALUE | wait NAME OP VALUE [within N] | quit
 // B is left, right or middle; MODS are shift, ctrl, alt. `aim` points at the image: (0, 0) is its top left corner and
 // (1, 1) its bottom right one. `aim_plot` points at the curves of the accuracy panel in the same way, and beyond (1, 1)
 // at the numbers of its axes. `aim_at` points at the control with this label: also a tab or a button. OP is one of
