@@ -42,6 +42,17 @@ TEST_CASE("Render worker: a change stops a pass at rest, and the newest change w
     CHECK(frame->picture.pixels()[0] == gray_pixel(2.0f, {}));
 }
 
+TEST_CASE("Render worker: a click is answered before the end of the pass at rest") {
+    Bench bench;
+    RenderWorker worker(bench.setup());
+    REQUIRE(frame_of(worker, 0));
+    bench.control->hold = true;
+    REQUIRE(eventually([&] { return bench.control->inside.load(); }));
+    worker.request_pick({0.5f, 0.65f});
+    CHECK(eventually([&] { return bench.control->stopped >= 1 && worker.take<PickAnswer>().has_value(); }));
+    bench.control->hold = false;
+}
+
 TEST_CASE("Render worker: a change does not wait until the pass before it is measured") {
     Bench bench;
     bench.control->pass_microseconds = 2000;
