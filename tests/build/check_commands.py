@@ -71,7 +71,7 @@ def main():
     program, count, faults = str(Path(sys.argv[1]).resolve()), 0, []
     for page in PAGES:
         with tempfile.TemporaryDirectory() as folder:
-            (Path(folder) / "look.script").write_text("0 wait_spp 1\n1 quit\n")
+            (Path(folder) / "look.script").write_text("0 wait spp >= 1\n1 quit\n")
             for words in commands(page):
                 arguments = shortened(words)
                 if arguments is None:

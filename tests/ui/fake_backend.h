@@ -21,6 +21,7 @@ namespace pl::test {
 struct FakeControl {
     std::atomic<bool> hold{false};          ///< passes do not end until they are stopped or released
     std::atomic<bool> inside{false};        ///< a pass is held
+    std::atomic<bool> finishes{false};      ///< the stop flag comes after the last path: passes are complete
     std::atomic<bool> fail{false};          ///< the next pass throws
     std::atomic<bool> fail_upload{false};   ///< the next upload of a scene throws
     std::atomic<bool> fail_making{false};   ///< making the next back end throws
@@ -137,7 +138,7 @@ public:
         PassCounters counters;
         const std::uint32_t end = std::min(request.end_pixel, pixels);
         wait_in_pass(end - request.first_pixel, request.stop);
-        if (request.stop != nullptr && *request.stop) {
+        if (request.stop != nullptr && *request.stop && !control_->finishes) {
             ++control_->stopped;
             return counters;
         }

@@ -179,6 +179,7 @@ void ImGuiDraw::draw(const ImDrawData& data) {
     SDL_SetRenderDrawBlendMode(renderer_, SDL_BLENDMODE_BLEND);
     const Rect whole{0.0f, 0.0f, data.DisplaySize.x, data.DisplaySize.y};
     copied_ = 0;
+    if (std::exchange(textures_made_, gui_memory().textures_made) != gui_memory().textures_made) forget_windows();
     for (auto& [name, window] : windows_) window.is_open = false;
     for (int n = 0; n < data.CmdListsCount; ++n) {
         const ImDrawList& list = *data.CmdLists[n];

@@ -2,7 +2,9 @@
 // and changed its name twice; this one works with all versions.
 #pragma once
 
+#include <cstdint>
 #include <functional>
+#include <limits>
 #include <map>
 #include <string>
 #include <vector>
@@ -16,8 +18,6 @@
 #else
 #include <backends/imgui_impl_sdl.h>
 #endif
-
-#include <cstdint>
 
 struct SDL_Renderer;
 struct SDL_Texture;
@@ -58,14 +58,17 @@ class PictureTextures;
 
 struct GuiMemory {
     PictureTextures* textures = nullptr;  ///< of the window's renderer
+    std::uint64_t textures_made = 0;      ///< for pictures: a new one may have the address of one that is gone
     int keyed_panel = -1;                 ///< the panel that was given the keyboard in the last frame; -1: none
     float pointer_rest_seconds = 0.0f;    ///< since the pointer moved: tooltips wait for rest
-    float top_card_end = 0.0f;     ///< lower edge of the card over the picture's top in the last frame; 0 without one
-    float low_card_start = 0.0f;   ///< upper edge of the one over its bottom; infinite without one
-    float low_card_height = 0.0f;  ///< of the last such card: cards follow their text
-    std::string badges{};          ///< over the picture in the last frame, for scripts
+    float top_card_end = 0.0f;  ///< lower edge of the card over the picture's top in the last frame; 0 without one
+    float low_card_start =
+        std::numeric_limits<float>::infinity();  ///< upper edge of the one over its bottom; infinite without one
+    float low_card_height = 0.0f;                ///< of the last such card: cards follow their text
+    std::string badges{};                        ///< over the picture in the last frame, for scripts
     /// Rectangles of the controls in the last frame by their labels: scripts point at them.
     std::map<std::string, Rect, std::less<>> places;
+    std::string moved{};  ///< controls that have left the place they had when a script asked them to keep it
 };
 
 /// A context of Dear ImGui that keeps no files: the layout follows from the window's size. `memory` outlives it.
@@ -73,14 +76,6 @@ void create_gui_context(GuiMemory& memory);
 
 /// Of the present ImGui context.
 GuiMemory& gui_memory();
-
-}  // namespace pl::ui
-
-struct ImDrawData;
-struct SDL_Renderer;
-struct SDL_Texture;
-
-namespace pl::ui {
 
 /// A software renderer takes most of the time of a frame, and most panels are as they were: an opaque window that is equal in two frames
 /// is drawn into a texture, and copied from then on.
@@ -119,6 +114,7 @@ private:
     SDL_Renderer* renderer_;
     SDL_Texture* fonts_ = nullptr;
     bool keeps_windows_;
+    std::uint64_t textures_made_ = 0;                         ///< when the windows were kept
     std::map<std::string, KeptWindow, std::less<>> windows_;  ///< by their names
     std::size_t copied_ = 0;
 };

@@ -18,6 +18,8 @@ constexpr float kAccuracyShare = 0.66f;       ///< of the height at the right
 constexpr float kSmallAccuracyShare = 0.45f;  ///< beside a tab with discs
 constexpr float kSmallestTabsEm = 8.0f;
 constexpr float kSmallestAccuracyEm = 10.0f;
+constexpr float kRunTableEm = 4.5f;         ///< where a selected volume needs the height
+constexpr float kDetailEm = 17.0f;          ///< of its numbers down to the discs
 constexpr float kWholePlotEm = 18.5f;       ///< of the accuracy panel: the table of some runs above a whole plot
 constexpr float kMostForPlotShare = 0.56f;  ///< of the height at the right
 constexpr float kBarEm = 1.75f;             ///< height of menu and status bar
@@ -57,11 +59,12 @@ std::array<float, 2> panel_widths(float room, float em, const PanelChoice& choic
 
 /// Height of the accuracy panel, if both parts of the right side are open.
 float accuracy_height(float height, float em, const PanelChoice& choice, bool detail) {
-    const float least = std::min(kSmallestAccuracyEm * em, 0.5f * height);
+    const float least = std::min((detail ? kRunTableEm : kSmallestAccuracyEm) * em, 0.5f * height);
     const float most = height - std::min(kSmallestTabsEm * em, 0.5f * height);
     const float standard = std::max((detail ? kSmallAccuracyShare : kAccuracyShare) * height,
                                     std::min(kWholePlotEm * em, kMostForPlotShare * height));
-    const float wanted = choice.accuracy_share > 0.0f ? choice.accuracy_share * height : standard;
+    const float automatic = detail ? std::min(standard, height - kDetailEm * em) : standard;
+    const float wanted = choice.accuracy_share > 0.0f ? choice.accuracy_share * height : automatic;
     return std::round(std::clamp(wanted, least, std::max(most, least)));
 }
 

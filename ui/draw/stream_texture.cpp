@@ -80,6 +80,7 @@ PictureTextures::~PictureTextures() {
 SDL_Texture* PictureTextures::of(const std::shared_ptr<const ByteImage>& picture) {
     const auto [entry, is_new] = textures_.try_emplace(picture, nullptr);
     if (!is_new) return entry->second;
+    ++gui_memory().textures_made;
     SDL_Texture* const texture = SDL_CreateTexture(renderer_, SDL_PIXELFORMAT_RGB24, SDL_TEXTUREACCESS_STATIC,
                                                    picture->width, picture->height);
     if (texture != nullptr) {
@@ -87,6 +88,14 @@ SDL_Texture* PictureTextures::of(const std::shared_ptr<const ByteImage>& picture
         SDL_SetTextureScaleMode(texture, SDL_ScaleModeLinear);
     }
     return entry->second = texture;
+}
+
+void PictureTextures::drop_unused() {
+    std::erase_if(textures_, [](const auto& entry) {
+        const bool is_unused = entry.first.use_count() == 1;
+        if (is_unused && entry.second != nullptr) SDL_DestroyTexture(entry.second);
+        return is_unused;
+    });
 }
 
 SDL_Texture* PictureTextures::of(const std::shared_ptr<const ScreenMesh>& mesh, const Rect& part) {

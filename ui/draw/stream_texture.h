@@ -54,11 +54,13 @@ public:
     PictureTextures(const PictureTextures&) = delete;
     PictureTextures& operator=(const PictureTextures&) = delete;
 
-    /// The picture must not change; it is kept. Null if the renderer has no room.
+    /// The picture must not change. Null if the renderer has no room.
     SDL_Texture* of(const std::shared_ptr<const ByteImage>& picture);
     /// The part of a mesh of opaque triangles in a rectangle of the window: without a graphics card its triangles take most of the time
     /// of a frame. The last two are kept. Null if the renderer cannot draw into textures.
     SDL_Texture* of(const std::shared_ptr<const ScreenMesh>& mesh, const Rect& part);
+    /// Those of pictures that nobody else has any more. Between frames, whose lists name textures.
+    void drop_unused();
 
 private:
     struct MeshTexture {

@@ -48,8 +48,8 @@ void apply_colors(ImVec4* c, Theme theme) {
     set(ImGuiCol_Header, {0x272c35, 0xdde1e8, 0x1e1e1e});
     set(ImGuiCol_HeaderHovered, {0x323946, 0xccd5e2, 0x2a2a2a});
     set(ImGuiCol_HeaderActive, {0x3a4352, 0xb9c7da, 0x00284f});
-    set(ImGuiCol_SliderGrab, {0x5ca8ff, 0x3c86d6, 0x8fd0ff});
-    set(ImGuiCol_SliderGrabActive, {0x8cc2ff, 0x0b57a8, 0xffffff});
+    set(ImGuiCol_SliderGrab, {0x2c66a8, 0x8fbdf0, 0x0055aa});
+    set(ImGuiCol_SliderGrabActive, {0x24548a, 0x6fa6e2, 0x00478f});
     set(ImGuiCol_Separator, {0x343a45, 0xb4bac4, 0xb4b4b4});
     set(ImGuiCol_Tab, {0x20242b, 0xd4d9e1, 0x1e1e1e});
     set(ImGuiCol_TabHovered, {0x3f495a, 0xc0c9d6, 0x2a2a2a});
@@ -67,7 +67,7 @@ void apply_colors(ImVec4* c, Theme theme) {
     set(ImGuiCol_TableHeaderBg, {0x272c35, 0xdde1e8, 0x1e1e1e});
     set(ImGuiCol_TableBorderLight, {0x2c323c, 0xc8cdd5, 0x7a7a7a});
     set(ImGuiCol_TableRowBgAlt, {0x1f232a, 0xe6e9ee, 0x141414});
-    set(ImGuiCol_PlotHistogram, {0x5ca8ff, 0x3c86d6, 0x8fd0ff});
+    set(ImGuiCol_PlotHistogram, {0x2c66a8, 0x8fbdf0, 0x0055aa});
 }
 
 }  // namespace

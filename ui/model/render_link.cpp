@@ -28,9 +28,9 @@ void RenderLink::take_frame() {
     auto latest = worker_.latest();
     if (latest == latest_) return;
     latest_ = std::move(latest);
-    if (turns_ && frame_ && latest_->side == 1) {
-        second_frame_ = latest_;
-    } else {
+    const bool is_second = turns_ && latest_->side == 1;
+    if (is_second) second_frame_ = latest_;
+    if (!is_second || frame_ == nullptr) {  // the first picture is shown at once, whose it is
         frame_ = latest_;
         throughput_.observe(frame_->snapshot, frame_->backend.name);
     }

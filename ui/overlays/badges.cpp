@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -232,8 +233,8 @@ void add_state_badges(BadgeRow& row, const ViewerModel& model) {
     if (!info_of(model.render().settings().method).learns || !status.field || model.frame() == nullptr) return;
     if (status.field->is_frozen)
         row.add(whose(model, 0) + "learning frozen after " + passes_text(status.field->passes), colors::kWarning);
-    else if (status.state == WorkerState::Rendering && model.frame()->snapshot.slot.view == View::Beauty &&
-             !is_given_up(*model.frame()))
+    else if (status.state == WorkerState::Rendering && status.field->passes > 0 &&
+             model.frame()->snapshot.slot.view == View::Beauty && !is_given_up(*model.frame()))
         row.add(whose(model, 0) + "learning, " + passes_text(status.field->passes), colors::kGood);
 }
 
@@ -262,6 +263,9 @@ void draw_badges(ViewerModel& model, const Layout& layout, const ComparePlan& pl
     add_state_badges(row, model);
     if (model.display().cells())
         row.add(fmt::format("volumes {:.0f} %", 100.0f * model.display().cells_opacity()), colors::kText);
+    if (const auto past = model.time().shown_frame(); past && model.display().cells())
+        row.add_heat_legend(fmt::format("entropy after {}, 0 to {:g} bits", passes_text(past->passes()),
+                                        std::log2(static_cast<float>(past->bins()))));
     add_field_badge(row, model);
     if (model.busy() && !model.references().progress() && !model.diagnostics().share())
         row.add("working", colors::kFaint);
@@ -303,10 +307,15 @@ void draw_toasts(const ViewerModel& model, const Layout& layout, const ComparePl
     const Rect& view = layout.clear;
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
     ImVec2 corner{view.x + em(0.6f), view.y + view.height - em(0.6f)};
-    corner.y = std::min({corner.y, top_of_names(plan) - em(0.6f), gui_memory().low_card_start - em(0.6f)});
+    if (!plan.tiles.empty()) corner.y = std::min(corner.y, top_of_names(plan, {}) - em(0.6f));
+    corner.y = std::min(corner.y, gui_memory().low_card_start - em(0.6f));
     const float width = std::min(view.width - em(1.2f), em(34.0f));
-    for (auto toast = model.messages().toasts().rbegin(); toast != model.messages().toasts().rend(); ++toast)
+    const Rect& badges = gui_memory().places["badges"];
+    for (auto toast = model.messages().toasts().rbegin(); toast != model.messages().toasts().rend(); ++toast) {
+        // Older ones have no room where badges are.
+        if (toast != model.messages().toasts().rbegin() && corner.y < badges.y + badges.height + em(2.0f)) break;
         corner.y -= draw_toast(list, corner, width, toast->level, toast->text) + em(0.35f);
+    }
 
     if (!model.camera().is_speed_shown()) return;
     const std::string text = fmt::format("speed {:.4g} units/s", model.camera().speed());

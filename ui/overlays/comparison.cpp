@@ -80,16 +80,24 @@ void draw_handle(ViewerModel& model, const CompareTile& tile, float x) {
     ImGui::PopStyleVar(2);
     if (held) model.comparison().set_split((ImGui::GetIO().MousePos.x - place.x) / place.width);
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
-    const float middle = seen.y + 0.5f * seen.height;
+    // In the part that no card covers.
+    const float low = std::max(seen.y, gui_memory().top_card_end) + em(0.6f);
+    const float high = std::min(seen.y + seen.height, gui_memory().low_card_start) - em(0.6f);
+    const float middle = std::clamp(seen.y + 0.5f * seen.height, low, std::max(low, high));
     note_place("split line", {x - em(0.5f), middle - em(0.5f), em(1.0f), em(1.0f)});
-    list.AddRectFilled({x - 1.0f, seen.y}, {x + 1.0f, seen.y + seen.height}, lit ? colors::kAccent : colors::kText);
-    list.AddCircleFilled({x, middle}, em(0.5f), lit ? colors::kAccent : colors::kText, 20);
+    // With a rim: pictures may be as bright as the line.
+    for (const auto& [rim, color] :
+         {std::pair{1.0f, colors::kGround}, {0.0f, lit ? colors::kAccent : colors::kText}}) {
+        list.AddRectFilled({x - 1.0f - rim, seen.y}, {x + 1.0f + rim, seen.y + seen.height}, color);
+        list.AddCircleFilled({x, middle}, em(0.5f) + rim, color, 20);
+    }
 }
 
 }  // namespace
 
-float top_of_names(const ComparePlan& plan) {
-    float top = std::numeric_limits<float>::infinity();
+float top_of_names(const ComparePlan& plan, const Rect& image) {
+    float top =
+        plan.tiles.empty() ? label_place({{}, image, image, "", 0, false}).y : std::numeric_limits<float>::infinity();
     for (const CompareTile& tile : plan.tiles) top = std::min(top, label_place(tile).y);
     return top;
 }

@@ -27,8 +27,8 @@ void draw_pixels(ViewerModel& model, const Layout& layout, const Rect& image, co
 
 /// Labels of the compared pictures, and the line between two of them, which can be dragged.
 void draw_comparison(ViewerModel& model, const ComparePlan& plan);
-/// Upper edge of the labels; infinite without a comparison.
-float top_of_names(const ComparePlan& plan);
+/// Upper edge of the labels; before there are pictures, of a label over `image`.
+float top_of_names(const ComparePlan& plan, const Rect& image);
 
 /// Badges of the picture: method, samples, and everything that could be misread.
 void draw_badges(ViewerModel& model, const Layout& layout, const ComparePlan& plan);

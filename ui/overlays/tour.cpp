@@ -74,6 +74,16 @@ void draw_offer(ViewerModel& model) {
 
 void draw_step(ViewerModel& model) {
     GuidedTour& tour = model.tour();
+    // Above the text, whose lines change with what was measured: they keep their place through all steps.
+    ImGui::BeginDisabled(tour.step() == 0);
+    if (button("Back", "tour: back")) tour.last_step(model);
+    ImGui::EndDisabled();
+    ImGui::SameLine();
+    if (button("Next", "tour: next")) tour.next_step(model);
+    ImGui::SameLine();
+    if (button("Leave the tour", "tour: leave")) tour.leave();
+    tooltip("F4 continues it here.");
+    if (tour.phase() != Phase::Running) return;
     const std::span<const TourStep> steps = tour_steps();
     const TourStep& step = steps[static_cast<std::size_t>(tour.step())];
     text_line(fmt::format("{} of {}   {}", tour.step() + 1, steps.size(), step.title).c_str(), colors::kAccent);
@@ -84,22 +94,14 @@ void draw_step(ViewerModel& model) {
         text_line(step.task, colors::kWarning);
     if (!model.comparison().in_turns())
         text_line("The turns have ended: X lets both halves go on.", colors::kWarning);
-    ImGui::BeginDisabled(tour.step() == 0);
-    if (button("Back", "tour: back")) tour.last_step(model);
-    ImGui::EndDisabled();
-    ImGui::SameLine();
-    if (button("Next", "tour: next")) tour.next_step(model);
-    ImGui::SameLine();
-    if (button("Leave the tour", "tour: leave")) tour.leave();
-    tooltip("F4 continues it here.");
 }
 
 void draw_end(ViewerModel& model) {
+    if (button("Close", "tour: close")) model.tour().leave();
     text_line("This was the tour.", colors::kAccent);
     text_line(lesson_text(model).c_str(), colors::kText);
     text_line("F1 lists all keys, F3 shows all settings, Ctrl+O opens other scenes, F4 begins the tour again.",
               colors::kFaint);
-    if (button("Close", "tour: close")) model.tour().leave();
 }
 
 void draw_card(ViewerModel& model, Phase phase) {
@@ -119,12 +121,14 @@ void begin_card(const char* name, const Rect& view, float y, bool is_lower_edge,
                      ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoFocusOnAppearing | flags);
 }
 
-/// Below compared pictures that leave room there, else above their names, as far as the card stays below the menus.
-float low_card_edge(const Rect& view, const ComparePlan& plan) {
+/// Below compared pictures that leave room there, else above their names, as far as the card stays below the menus. The same before
+/// there are pictures: the buttons of the card keep their place.
+float low_card_edge(const Rect& view, const Rect& image, const ComparePlan& plan) {
     const float height = gui_memory().low_card_height;
     const float end = view.y + view.height - em(0.6f);
-    const bool has_room = !plan.tiles.empty() && plan.tiles[0].clip.y + plan.tiles[0].clip.height + height < end;
-    return has_room ? end : std::min(end, std::max(top_of_names(plan) - em(0.6f), view.y + height));
+    const Rect& picture = plan.tiles.empty() ? image : plan.tiles[0].clip;
+    if (picture.y + picture.height + height < end) return end;
+    return std::min(end, std::max(top_of_names(plan, image) - em(0.6f), view.y + height));
 }
 
 /// Ends the window, and returns its place.
@@ -147,7 +151,7 @@ void draw_tour(ViewerModel& model, const Layout& layout, const Rect& image, cons
     if (phase == Phase::Off || phase == Phase::Offered) {
         if (!model.link().turns() && phase == Phase::Off) return;
         // Without buttons clicks go through it to the picture.
-        begin_card("headline", view, low_card_edge(view, plan), true,
+        begin_card("headline", view, low_card_edge(view, image, plan), true,
                    phase == Phase::Off ? ImGuiWindowFlags_NoInputs : 0);
         if (const auto headline = model.comparison().headline()) draw_headline(model, *headline);
         if (phase == Phase::Offered) draw_offer(model);

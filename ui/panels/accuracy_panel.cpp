@@ -159,15 +159,16 @@ void draw_reference(ViewerModel& model) {
         tooltip("Esc: the samples so far are stored and used; the reference can be continued.");
         return;
     }
-    if (const ReferencePicture* reference = model.references().current())
-        faint_text(fmt::format("{}, noise {:.2g}", reference->label, reference->noise_relmse).c_str());
+    const ReferencePicture* const reference = model.references().current();
     if (wide_button(
-            model.references().current() != nullptr ? "Continue the reference" : "Render the reference",
+            reference != nullptr ? "Continue the reference" : "Render the reference",
             "Key Ctrl+R. Two independent halves, on the CPU at low priority, by default path tracing with light "
             "samples. Rendering rests meanwhile, so that no timed pass gets slower. Stored in the folder "
             "references "
             "like those of 'pathlight reference', and found again by scene, camera and size."))
         model.references().make();
+    if (reference != nullptr)
+        faint_text(fmt::format("{}, noise {:.2g}", reference->label, reference->noise_relmse).c_str());
 }
 
 void draw_footing(const AccuracyModel& model) {
@@ -205,10 +206,10 @@ void draw_accuracy_panel(ViewerModel& model, const Layout& layout) {
         model.comparison().set_cursor(accuracy.cursor());
     window.plot.has_wheel = ImGui::IsItemHovered();
     draw_cursor_table(accuracy);
-    draw_older_runs(accuracy);
     draw_comparison(model);
     draw_reference(model);
     draw_footing(accuracy);
+    draw_older_runs(accuracy);  // last: they come while others render, and move nothing
     ImGui::EndChild();
     ImGui::End();
 }

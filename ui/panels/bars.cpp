@@ -181,9 +181,12 @@ void draw_pointed(StatusLine& line, ViewerModel& model) {
     if (!pointed) return;
     model.window().values_shown = true;
     std::string text = fmt::format("{},{}", pointed->at.x, pointed->at.y);
+    const bool is_number = is_heat_map(model.frame()->snapshot.slot.view);
     if (const auto& value = pointed->value)
-        text += fmt::format(":  {}  {}  {}", short_value(value->x), short_value(value->y), short_value(value->z));
-    line.add(text, "Pixel under the pointer, from the top left, and its linear red, green and blue.");
+        text += is_number ? ":  " + short_value(value->x)
+                          : fmt::format(":  {}  {}  {}", short_value(value->x), short_value(value->y),
+                                        short_value(value->z));
+    line.add(text, "Pixel under the pointer, from the top left, and its linear red, green and blue, or its number.");
     if (!line.is_full()) note_place("pointed pixel");
 }
 

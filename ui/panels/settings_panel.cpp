@@ -74,8 +74,9 @@ void draw_back_end(ViewerModel& model) {
         faint_text(text.c_str());
         ImGui::Unindent(label_start);
     }
-    if (is_research(model) && model.frame() != nullptr)
-        text_row("Rays", model.frame()->backend.intersector, "The intersector of this scene.");
+    if (is_research(model))
+        text_row("Rays", model.frame() != nullptr ? model.frame()->backend.intersector : "-",
+                 "The intersector of this scene.");
 }
 
 void draw_size(ViewerModel& model) {

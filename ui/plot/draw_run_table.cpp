@@ -130,6 +130,7 @@ void draw_run_table(AccuracyModel& model) {
     const RunTable& table = model.table();
     const std::vector<RunColumn> columns = columns_for(table.rows, ImGui::GetContentRegionAvail().x);
     std::uint64_t clicked = 0;
+    const float start = ImGui::GetCursorPosY();
     ImGui::PushStyleVar(ImGuiStyleVar_CellPadding, {em(0.22f), 0.0f});
     if (!table.rows.empty() &&
         ImGui::BeginTable("runs", static_cast<int>(columns.size()) + 2, ImGuiTableFlags_SizingFixedFit)) {
@@ -150,13 +151,11 @@ void draw_run_table(AccuracyModel& model) {
         ImGui::EndTable();
     }
     ImGui::PopStyleVar();
-    // The second run replaces the note: what is below keeps its place.
-    constexpr std::size_t kUsualRows = 2;
-    if (!table.note.empty())
-        faint_text(table.note.c_str());
-    else
-        for (std::size_t row = table.rows.size(); row < kUsualRows; ++row)
-            ImGui::Dummy({0.0f, ImGui::GetTextLineHeight()});
+    if (!table.note.empty()) faint_text(table.note.c_str());
+    // A header and two rows, or one and the note, have room from the start: what is below keeps its place.
+    constexpr float kUsualLines = 3.0f;
+    const float end = start + kUsualLines * ImGui::GetTextLineHeight() + 2.0f * ImGui::GetStyle().ItemSpacing.y;
+    if (ImGui::GetCursorPosY() < end) ImGui::SetCursorPosY(end);
     if (clicked != 0) model.toggle_hidden(clicked);
 }
 

@@ -75,7 +75,6 @@ constexpr std::array kOverlayValues{
                     return fmt::format("{}",
                                        m.gain_marks().gains() != nullptr ? m.gain_marks().gains()->tiles.size() : 0);
                 }},
-    ScriptValue{"gain_reason", [](const ViewerModel& m) { return m.gain_marks().reason(); }},
 };
 
 }  // namespace

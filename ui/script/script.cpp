@@ -25,12 +25,15 @@ struct CommandWord {
     Kind kind;
 };
 constexpr std::array kWords{
-    CommandWord{"move", Kind::Move},     CommandWord{"aim", Kind::Aim},       CommandWord{"aim_plot", Kind::AimPlot},
-    CommandWord{"aim_at", Kind::AimAt},  CommandWord{"down", Kind::Down},     CommandWord{"up", Kind::Up},
-    CommandWord{"wheel", Kind::Wheel},   CommandWord{"key", Kind::Key},       CommandWord{"keyup", Kind::KeyUp},
-    CommandWord{"tap", Kind::Tap},       CommandWord{"resize", Kind::Resize}, CommandWord{"drop", Kind::Drop},
-    CommandWord{"type", Kind::Type},     CommandWord{"monkey", Kind::Monkey}, CommandWord{"shot", Kind::Shot},
-    CommandWord{"expect", Kind::Expect}, CommandWord{"wait", Kind::Wait},     CommandWord{"wait_spp", Kind::Wait},
+    CommandWord{"move", Kind::Move},        CommandWord{"aim", Kind::Aim},
+    CommandWord{"aim_plot", Kind::AimPlot}, CommandWord{"aim_at", Kind::AimAt},
+    CommandWord{"down", Kind::Down},        CommandWord{"up", Kind::Up},
+    CommandWord{"wheel", Kind::Wheel},      CommandWord{"key", Kind::Key},
+    CommandWord{"keyup", Kind::KeyUp},      CommandWord{"tap", Kind::Tap},
+    CommandWord{"resize", Kind::Resize},    CommandWord{"drop", Kind::Drop},
+    CommandWord{"type", Kind::Type},        CommandWord{"monkey", Kind::Monkey},
+    CommandWord{"shot", Kind::Shot},        CommandWord{"expect", Kind::Expect},
+    CommandWord{"wait", Kind::Wait},        CommandWord{"keep_places", Kind::KeepPlaces},
     CommandWord{"quit", Kind::Quit},
 };
 constexpr std::array<std::string_view, 7> kOperators{"==", "!=", "<", "<=", ">", ">=", "~"};
@@ -142,7 +145,7 @@ void read_limit(const ScriptLine& line, ScriptCommand& command) {
     value.resize(at);
 }
 
-void read_arguments(ScriptLine& line, std::string_view word, ScriptCommand& command) {
+void read_arguments(ScriptLine& line, ScriptCommand& command) {
     switch (command.kind) {
     case Kind::Move:
     case Kind::Aim:
@@ -182,13 +185,10 @@ void read_arguments(ScriptLine& line, std::string_view word, ScriptCommand& comm
     case Kind::Shot: command.text = line.rest("a file name"); break;
     case Kind::Expect: command.condition = read_condition(line); break;
     case Kind::Wait:
-        if (word == "wait") {
-            command.condition = read_condition(line);
-            read_limit(line, command);
-        } else {
-            command.condition = {"spp", ">=", fmt::format("{}", line.number("a number of samples"))};
-        }
+        command.condition = read_condition(line);
+        read_limit(line, command);
         break;
+    case Kind::KeepPlaces:
     case Kind::Quit: break;
     }
     line.end();
@@ -216,7 +216,7 @@ ScriptCommand parse_line(std::string_view text, const std::string& where, int pr
     if (entry == kWords.end())
         line.fail(fmt::format("unknown command '{}', expected one of: {}", word, known_words()));
     command.kind = entry->kind;
-    read_arguments(line, word, command);
+    read_arguments(line, command);
     return command;
 }
 

@@ -3,12 +3,13 @@
 //   FRAME move X Y | aim U V | aim_plot U V | aim_at U V LABEL | down B [MODS] | up B | wheel N [MODS]
 //   FRAME key K [MODS] | keyup K
 //   FRAME tap K [MODS] | resize W H | drop FILE
-//   FRAME type TEXT | monkey SEED EVENTS
-//   FRAME shot FILE | expect NAME OP VALUE | wait NAME OP VALUE [within N] | wait_spp N | quit
+//   FRAME type TEXT | monkey SEED EVENTS | keep_places
+//   FRAME shot FILE | expect NAME OP VALUE | wait NAME OP VALUE [within N] | quit
 // B is left, right or middle; MODS are shift, ctrl, alt. `aim` points at the image: (0, 0) is its top left corner and
 // (1, 1) its bottom right one. `aim_plot` points at the curves of the accuracy panel in the same way, and beyond (1, 1)
 // at the numbers of its axes. `aim_at` points at the control with this label: also a tab or a button. OP is one of
-// == != < <= > >= ~ (contains). `monkey` plays random input. The frame count stands still while a script waits, and meanwhile.
+// == != < <= > >= ~ (contains). `monkey` plays random input. From `keep_places` on the value `moved` collects the controls that leave
+// their place. The frame count stands still while a script waits, and meanwhile.
 // A wait that has not come true after N further passes of any picture, 20000 unless given otherwise, ends the script as a failed
 // expectation does. Passes, not seconds: no verdict depends on the speed of the machine.
 #pragma once
@@ -50,6 +51,7 @@ struct ScriptCommand {
         Drop,
         Type,
         Monkey,
+        KeepPlaces,
         Shot,
         Expect,
         Wait,

@@ -51,6 +51,7 @@ ScriptPlayer::ScriptPlayer(std::vector<ScriptCommand> commands, SDL_Window* wind
     : commands_(std::move(commands)), window_(window) {}
 
 void ScriptPlayer::step(ViewerModel& model, const Rect& image, double seconds) {
+    note_moved();
     for (const KeyStroke& key : std::exchange(tapped_, {})) push_key(key, false);
     if (buttons_ == 0) SDL_SetModState(KMOD_NONE);  // of a wheel, or of a button that is up again
     while (next_ < commands_.size() && commands_[next_].frame <= frame_) {
@@ -101,6 +102,18 @@ void ScriptPlayer::follow_control() {
     if (!aimed_at_ || !gui_memory().places.contains(aimed_at_->text)) return;
     const Vec2f point = point_in(place_of(*aimed_at_), *aimed_at_);
     if (point != pointer_) push_motion(point);
+}
+
+/// Whoever aims at a control must find it there, whatever the numbers beside it do.
+void ScriptPlayer::note_moved() {
+    GuiMemory& memory = gui_memory();
+    std::erase_if(kept_places_, [&](const auto& kept) {
+        const auto now = memory.places.find(kept.first);
+        if (now == memory.places.end() || (now->second.x == kept.second.x && now->second.y == kept.second.y))
+            return false;
+        memory.moved += (memory.moved.empty() ? "" : ", ") + kept.first;
+        return true;
+    });
 }
 
 /// One event in each frame of the window.
@@ -159,6 +172,10 @@ bool ScriptPlayer::run(const ScriptCommand& command, ViewerModel& model, const R
     }
     case Kind::Type: push_text(command.text); break;
     case Kind::Monkey: return play_monkey(command, model, image, seconds);
+    case Kind::KeepPlaces:
+        kept_places_ = gui_memory().places;
+        gui_memory().moved.clear();
+        break;
     case Kind::Shot: shot_ = command.text; break;
     case Kind::Expect: require(command, model); break;
     case Kind::Wait: return wait(command, model, seconds);

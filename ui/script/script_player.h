@@ -3,7 +3,9 @@
 
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "ui/draw/layout.h"
@@ -46,6 +48,7 @@ private:
     /// The value of a condition. "message" is every message since the last input: others may follow the one that is waited for.
     std::string value_of(const ScriptCondition& condition, const ViewerModel& model) const;
     void follow_control();
+    void note_moved();
     void push_motion(Vec2f position);
     void push_button(int button, bool down);
     void push_text(const std::string& text);
@@ -56,12 +59,13 @@ private:
     std::size_t next_ = 0;
     int frame_ = 0;
     std::optional<Monkey> monkey_;
-    int monkey_frames_ = 0;                  ///< in which random input was played
-    std::optional<double> waiting_since_;    ///< seconds of the real time at which a wait began
-    std::uint64_t passes_before_wait_ = 0;   ///< WorkerStatus::all_passes then
-    std::uint64_t messages_before_ = 0;      ///< the last input
-    std::optional<ScriptCommand> aimed_at_;  ///< the control under the pointer
-    std::vector<KeyStroke> tapped_;          ///< keys that go up in the next frame
+    int monkey_frames_ = 0;                                 ///< in which random input was played
+    std::optional<double> waiting_since_;                   ///< seconds of the real time at which a wait began
+    std::uint64_t passes_before_wait_ = 0;                  ///< WorkerStatus::all_passes then
+    std::uint64_t messages_before_ = 0;                     ///< the last input
+    std::optional<ScriptCommand> aimed_at_;                 ///< the control under the pointer
+    std::map<std::string, Rect, std::less<>> kept_places_;  ///< of controls that must not move
+    std::vector<KeyStroke> tapped_;                         ///< keys that go up in the next frame
     std::optional<std::filesystem::path> shot_;
     Vec2f pointer_{0.0f};
     unsigned int buttons_ = 0;

@@ -29,8 +29,9 @@ std::string learned_passes(const ViewerModel& model) {
 }
 
 /// A property of the picture in the window, which follows the settings after the next pass.
-std::string shown(const ViewerModel& model, std::string (*read)(const PublishedFrame& frame)) {
-    return model.frame() != nullptr ? read(*model.frame()) : "none";
+template <auto kRead>
+std::string shown(const ViewerModel& model) {
+    return model.frame() != nullptr ? kRead(*model.frame()) : "none";
 }
 
 /// Stored points of the run in progress, else of the newest run.
@@ -94,15 +95,6 @@ std::string tooltip_place(const ViewerModel&) {
     const bool is_over = is_covered("tour", false) || is_covered("settings", true) || is_covered("knowledge", true) ||
                          is_covered("accuracy", true);
     return is_over ? "over" : "beside";
-}
-
-/// Lines between the title of the learning section in the layout Explore and its button: they must not change with the numbers.
-std::string learning_rows(const ViewerModel&) {
-    const auto& places = gui_memory().places;
-    const auto title = places.find("Learning");
-    const auto button = places.find("Forget the learned field");
-    if (title == places.end() || button == places.end()) return "none";
-    return fmt::format("{:.1f}", (button->second.y - title->second.y) / ImGui::GetTextLineHeightWithSpacing());
 }
 
 /// "96,134", "none".
@@ -169,7 +161,7 @@ constexpr std::array kValues{
     Value{"tooltip_place", tooltip_place},
     Value{"panels", [](const ViewerModel& m) { return word(m.window().panels.shown); }},
     Value{"badges", [](const ViewerModel&) { return gui_memory().badges; }},
-    Value{"learning_rows", learning_rows},
+    Value{"moved", [](const ViewerModel&) { return gui_memory().moved.empty() ? "none" : gui_memory().moved; }},
     Value{"theme", [](const ViewerModel& m) { return std::string(pl::name_of(m.window().theme)); }},
     Value{"keyed_panel",
           [](const ViewerModel& m) {
@@ -218,45 +210,18 @@ constexpr std::array kValues{
     Value{"title", [](const ViewerModel& m) { return m.title(); }},
     Value{"message", last_message},
     Value{"toasts", [](const ViewerModel& m) { return fmt::format("{}", m.messages().toasts().size()); }},
-    Value{"shown_method",
-          [](const ViewerModel& m) {
-              return shown(m,
-                           [](const PublishedFrame& f) { return std::string(info_of(f.snapshot.slot.method).name); });
-          }},
-    Value{"shown_view",
-          [](const ViewerModel& m) {
-              return shown(m,
-                           [](const PublishedFrame& f) { return std::string(info_of(f.snapshot.slot.view).name); });
-          }},
-    Value{"shown_spp",
-          [](const ViewerModel& m) {
-              return shown(m, [](const PublishedFrame& f) { return fmt::format("{}", f.snapshot.passes); });
-          }},
-    Value{"shown_backend",
-          [](const ViewerModel& m) { return shown(m, [](const PublishedFrame& f) { return f.backend.name; }); }},
-    Value{"shown_device",
-          [](const ViewerModel& m) {
-              return shown(m, [](const PublishedFrame& f) { return device_text(f.backend); });
-          }},
+    Value{"shown_method", shown<[](const PublishedFrame& f) { return std::string(info_of(f.snapshot.slot.method).name); }>},
+    Value{"shown_view", shown<[](const PublishedFrame& f) { return std::string(info_of(f.snapshot.slot.view).name); }>},
+    Value{"shown_spp", shown<[](const PublishedFrame& f) { return fmt::format("{}", f.snapshot.passes); }>},
+    Value{"shown_backend", shown<[](const PublishedFrame& f) { return f.backend.name; }>},
+    Value{"shown_device", shown<[](const PublishedFrame& f) { return device_text(f.backend); }>},
     Value{"undo", [](const ViewerModel& m) { return m.history().undone_next(); }},
     Value{"redo", [](const ViewerModel& m) { return m.history().redone_next(); }},
     Value{"shown_denoised", [](const ViewerModel& m) { return word(m.shows_denoised()); }},
-    Value{"shown_preview",
-          [](const ViewerModel& m) {
-              return shown(m, [](const PublishedFrame& f) { return std::string(name_of(f.preview)); });
-          }},
-    Value{"shown_light",
-          [](const ViewerModel& m) {
-              return shown(m, [](const PublishedFrame& f) { return std::string(name_of(f.facts.light)); });
-          }},
-    Value{"shown_divider",
-          [](const ViewerModel& m) {
-              return shown(m, [](const PublishedFrame& f) { return fmt::format("{}", f.divider); });
-          }},
-    Value{"shown_cells",
-          [](const ViewerModel& m) {
-              return shown(m, [](const PublishedFrame& f) { return word(f.cells != nullptr); });
-          }},
+    Value{"shown_preview", shown<[](const PublishedFrame& f) { return std::string(name_of(f.preview)); }>},
+    Value{"shown_light", shown<[](const PublishedFrame& f) { return std::string(name_of(f.facts.light)); }>},
+    Value{"shown_divider", shown<[](const PublishedFrame& f) { return fmt::format("{}", f.divider); }>},
+    Value{"shown_cells", shown<[](const PublishedFrame& f) { return word(f.cells != nullptr); }>},
     Value{"material",
           [](const ViewerModel& m) {
               const auto index = m.scene().selected_material();
@@ -291,17 +256,13 @@ constexpr std::array kValues{
     Value{"thumbnails", [](const ViewerModel& m) { return fmt::format("{}", m.open_dialog().card_count()); }},
     Value{"folder", [](const ViewerModel& m) { return m.open_dialog().listing().folder.string(); }},
     Value{"knobs", [](const ViewerModel& m) { return knob_text(m.scene().knobs()); }},
-    Value{"shown_knobs",
-          [](const ViewerModel& m) {
-              return shown(m, [](const PublishedFrame& f) { return knob_text(f.description->knobs); });
-          }},
+    Value{"shown_knobs", shown<[](const PublishedFrame& f) { return knob_text(f.description->knobs); }>},
     Value{"roughness",
           [](const ViewerModel& m) {
               const auto index = m.scene().selected_material();
               return fmt::format("{:.3f}", index ? m.scene().materials().now()[*index].roughness : 0.0f);
           }},
-    Value{"kernel",
-          [](const ViewerModel& m) { return shown(m, [](const PublishedFrame& f) { return f.snapshot.kernel; }); }},
+    Value{"kernel", shown<[](const PublishedFrame& f) { return f.snapshot.kernel; }>},
     Value{"zoom", [](const ViewerModel& m) { return fmt::format("{:.4g}", m.window().zoom.scale()); }},
     Value{"pixel", pointed_at},
     Value{"pixel_value", pointed_value},
@@ -332,11 +293,7 @@ constexpr std::array kValues{
     Value{"selftest_shown", [](const ViewerModel& m) { return word(m.self_test().is_shown()); }},
     Value{"selftest", [](const ViewerModel& m) { return std::string(name_of(m.self_test().run().outcome())); }},
     Value{"checks", [](const ViewerModel& m) { return fmt::format("{}", m.self_test().run().checks().size()); }},
-    Value{"invalid",
-          [](const ViewerModel& m) {
-              return shown(
-                  m, [](const PublishedFrame& f) { return fmt::format("{}", f.snapshot.counters.invalid_samples); });
-          }},
+    Value{"invalid", shown<[](const PublishedFrame& f) { return fmt::format("{}", f.snapshot.counters.invalid_samples); }>},
 };
 
 const ScriptValue* find_value(std::string_view name) {

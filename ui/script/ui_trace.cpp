@@ -60,27 +60,19 @@ void UiTrace::frame_shown(double seconds, const FrameTimes& times, std::uint64_t
                  R"({{"event":"frame","frame":{},"t":{:.6f},"work_ms":{:.3f},"cpu_ms":{:.3f},"interval_ms":{:.3f})",
                  frames_++, seconds, 1000.0 * times.work, 1000.0 * times.cpu, 1000.0 * times.interval)
           << "}\n";
-    show_moves(seconds, generation);
-    show_switches(seconds, generation);
+    show(waiting_, "picture", picture_ms_, seconds, generation);
+    show(switches_, "switch", switch_ms_, seconds, generation);
 }
 
-void UiTrace::show_switches(double seconds, std::uint64_t generation) {
-    std::erase_if(switches_, [&](const Move& change) {
-        if (change.generation > generation) return false;
-        switch_ms_.push_back(1000.0 * (seconds - change.seconds));
-        file_ << fmt::format(R"({{"event":"switch","t":{:.6f},"latency_ms":{:.3f})", seconds, switch_ms_.back())
-              << "}\n";
-        return true;
-    });
-}
-
-void UiTrace::show_moves(double seconds, std::uint64_t generation) {
-    std::erase_if(waiting_, [&](const Move& move) {
+/// What waits for a picture of this generation.
+void UiTrace::show(std::vector<Move>& waiting, const char* event, std::vector<double>& all_ms, double seconds,
+                   std::uint64_t generation) {
+    std::erase_if(waiting, [&](const Move& move) {
         if (move.generation > generation) return false;
         const double ms = 1000.0 * (seconds - move.seconds);
-        picture_ms_.push_back(ms);
-        if (move.is_first) first_picture_ms_.push_back(ms);
-        file_ << fmt::format(R"({{"event":"picture","t":{:.6f},"latency_ms":{:.3f},"first":{})", seconds, ms,
+        all_ms.push_back(ms);
+        if (&waiting == &waiting_ && move.is_first) first_picture_ms_.push_back(ms);
+        file_ << fmt::format(R"({{"event":"{}","t":{:.6f},"latency_ms":{:.3f},"first":{})", event, seconds, ms,
                              move.is_first)
               << "}\n";
         return true;

@@ -45,8 +45,8 @@ private:
         std::uint64_t generation;
         bool is_first;
     };
-    void show_moves(double seconds, std::uint64_t generation);
-    void show_switches(double seconds, std::uint64_t generation);
+    void show(std::vector<Move>& waiting, const char* event, std::vector<double>& all_ms, double seconds,
+              std::uint64_t generation);
 
     std::ofstream file_;
     std::vector<Move> waiting_;

@@ -8,9 +8,10 @@
 #include "ui/model/window_state.h"
 #include "ui/viewer.h"
 
-namespace pl::ui {
+struct SDL_Window;
+struct SDL_Renderer;
 
-// Size of the window and scale of its text on a screen.
+namespace pl::ui {
 
 /// The part of a screen that windows may cover.
 struct Screen {
@@ -39,22 +40,8 @@ WindowPlace place_on_screens(WindowPlace wanted, std::span<const ScreenArea> scr
 /// 1440 x 900 times the scale, or as much of it as fits the screen. A requested size is taken as it is.
 WindowOptions plan_window(const WindowOptions& options, const Screen& screen);
 
-}  // namespace pl::ui
-
-struct SDL_Window;
-
-namespace pl::ui {
-
-// The window's icon, drawn by the program.
-
+/// Drawn by the program.
 void set_window_icon(SDL_Window* window);
-
-}  // namespace pl::ui
-
-struct SDL_Window;
-struct SDL_Renderer;
-
-namespace pl::ui {
 
 /// Keeps SDL's video subsystem running. Throws Error(Unavailable) with one line on machines without a screen, unless
 /// SDL_VIDEODRIVER names a driver that needs none. The check uses the connection that the window uses afterwards: an X
@@ -83,7 +70,6 @@ public:
     SDL_Renderer* renderer() const { return renderer_; }
     /// "opengl (NVIDIA ...)", "software".
     const std::string& renderer_name() const { return name_; }
-    bool is_software() const { return software_; }
     /// Of text and controls, for this screen or as asked for.
     float ui_scale() const { return plan_.ui_scale; }
 

@@ -28,6 +28,7 @@ public:
     /// One frame: `build` is called inside of a window without a border that fills the picture, over `background` (0xAARRGGBB,
     /// [row][column], as large as the picture), or over the color of panels where that is null.
     ByteImage paint(const std::uint32_t* background, const std::function<void()>& build);
+    SDL_Renderer* renderer() const { return renderer_; }
     /// See ImGuiDraw::copied().
     std::size_t copied() const { return draw_->copied(); }
 

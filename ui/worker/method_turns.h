@@ -41,8 +41,6 @@ public:
 
     const TurnsStatus& status() const { return status_; }
     MethodId first() const { return status_.sides.methods[0]; }
-    /// The method whose turn it is.
-    MethodId method() const { return status_.sides.methods[side_]; }
     /// Of the first side, when it was last counted.
     const std::optional<FieldStatus>& field() const { return field_; }
 

@@ -83,14 +83,17 @@ bool RenderLoop::has_work() const {
     if (failed_) return false;
     if (preview_.now() != wanted_preview()) return true;
     const bool size_is_stale = !size_.is_whole() && !is_coarse();
-    return size_is_stale || lacks_last_point() || wants_pass() || frames_.is_asked() ||
-           selected_.wants(now_.volume) || wants_pins() || (now_.cells && !cells_.is_current(*session_));
+    return size_is_stale || unmeasured_side() || wants_pass() || frames_.is_asked() || selected_.wants(now_.volume) ||
+           wants_pins() || (now_.cells && !cells_.is_current(*session_));
 }
 
-/// The picture rests, and its last passes were not measured.
-bool RenderLoop::lacks_last_point() const {
-    return now_.paused && !is_coarse() && size_.is_whole() && !wants_pass() && preview_.now() == Preview::None &&
-           !runs_.is_up_to_date(at_work(), slot());
+/// Of a picture that rests, if its last passes were not measured; without turns both sides are the picture.
+std::optional<std::size_t> RenderLoop::unmeasured_side() const {
+    if (failed_ || is_coarse() || !size_.is_whole() || wants_pass() || preview_.now() != Preview::None)
+        return std::nullopt;
+    for (const std::size_t side : {0u, 1u})
+        if (!runs_.is_up_to_date(session_of(side), slot_of_side(side))) return side;
+    return std::nullopt;
 }
 
 /// Begins or ends turns as requested, and reads the time of both sides again: edits may have emptied their films.
@@ -196,7 +199,8 @@ void RenderLoop::work() {
     answer_questions();
     if (turns_) take_turn();
     if (wants_pass()) render();
-    if (lacks_last_point() && runs_.observe(at_work(), slot(), true)) outbox_.set_runs(runs_.runs());
+    if (const auto side = unmeasured_side(); side && runs_.observe(session_of(*side), slot_of_side(*side), true))
+        outbox_.set_runs(runs_.runs());
     observe_field();
     if (*inbox_.stop_flag()) return;
     if (now_.cells && !cells_.is_current(*session_) && passes() > 0 && cells_.render(*session_, inbox_.stop_flag()))
@@ -229,7 +233,9 @@ void RenderLoop::render() {
     }
     if (turns_) turns_->count(turns_->side(), at_work(), shown_.view);
     const bool is_last = now_.paused || now_.is_enough(passes(), seconds());
-    if (is_whole && runs_.observe(at_work(), slot(), is_last)) outbox_.set_runs(runs_.runs());
+    const bool is_late =
+        *inbox_.edit_flag();  // measuring takes as long as a frame, and the picture is about to change
+    if (is_whole && !is_late && runs_.observe(at_work(), slot(), is_last)) outbox_.set_runs(runs_.runs());
     update_status();
     if (now_.once.steps > 0 || limit_reached() || now_.paused) frames_.ask();
 }

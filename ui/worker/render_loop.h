@@ -59,7 +59,7 @@ private:
     void observe_field();
     void publish();
     bool wants_pass() const;
-    bool lacks_last_point() const;
+    std::optional<std::size_t> unmeasured_side() const;
     bool limit_reached() const;
     std::uint32_t most_passes() const;
     bool is_publishing_due() const;
@@ -72,8 +72,10 @@ private:
     void settle_backend(const std::string& asked);
 
     /// The film under way, and its session.
-    FilmSlot slot() const {
-        return turns_ ? FilmSlot{turns_->method(), shown_.view} : preview_.slot(*session_, shown_);
+    FilmSlot slot() const { return slot_of_side(turns_ ? turns_->side() : 0); }
+    FilmSlot slot_of_side(std::size_t side) const {
+        return turns_ ? FilmSlot{turns_->status().sides.methods[side], shown_.view}
+                      : preview_.slot(*session_, shown_);
     }
     Session& session_of(std::size_t side) const { return side == 1 && second_ ? *second_ : *session_; }
     Session& at_work() const { return session_of(turns_ ? turns_->side() : 0); }

@@ -2,6 +2,7 @@
 #include "ui/draw/imgui_draw.h"
 
 #include "tests/support/catch.hpp"
+#include "ui/draw/stream_texture.h"
 #include "ui/window/offscreen.h"
 
 using namespace pl;
@@ -63,4 +64,32 @@ TEST_CASE("Windows of Dear ImGui: what shines through is drawn anew in every fra
     const ByteImage drawn = window.paint("a", 0.5f);
     CHECK(difference(window.paint("a", 0.5f), drawn) == 0);
     CHECK(window.copied() == 0);
+}
+
+TEST_CASE("Windows of Dear ImGui: a picture in the place of another of its size is drawn, whatever the addresses") {
+    Window window;
+    PictureTextures textures(window.offscreen.renderer());
+    gui_memory().textures = &textures;
+    const auto picture_of = [](std::uint8_t value) {
+        return std::make_shared<const ByteImage>(
+            ByteImage{.width = 8, .height = 8, .rgb = std::vector<std::uint8_t>(8 * 8 * 3, value)});
+    };
+    const auto shown = [&](const std::shared_ptr<const ByteImage>& picture) {
+        textures.drop_unused();
+        const ByteImage pixels = window.offscreen.paint(nullptr, [&] {
+            ImGui::SetNextWindowPos({20.0f, 20.0f});
+            ImGui::SetNextWindowSize({60.0f, 60.0f});
+            ImGui::Begin("picture of a bookmark", nullptr, ImGuiWindowFlags_NoDecoration);
+            ImGui::GetWindowDrawList()->AddImage(to_texture_id(texture_of(picture)), {30.0f, 30.0f}, {38.0f, 38.0f});
+            ImGui::End();
+        });
+        return static_cast<int>(pixels.rgb[3 * static_cast<std::size_t>(33 * pixels.width + 33)]);
+    };
+    std::shared_ptr<const ByteImage> picture;
+    // Memory that is free again is taken first: the texture of each has the address of the one before.
+    for (const int value : {200, 90, 160}) {
+        picture = picture_of(static_cast<std::uint8_t>(value));
+        for (int frame = 0; frame < 3; ++frame) CHECK(shown(picture) == value);
+    }
+    CHECK(window.copied() > 0);
 }

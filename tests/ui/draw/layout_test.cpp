@@ -42,6 +42,11 @@ TEST_CASE("Layout: a tab with details gets more of the height than the accuracy 
     const Layout detail = make_layout(1440.0f, 900.0f, 16.0f, {}, true);
     CHECK(plain.right.height < plain.accuracy.height);
     CHECK(detail.right.height > detail.accuracy.height);
+    // Large text in a small window: the discs are seen, and of the accuracy panel the table.
+    constexpr float kLargeEm = 32.0f;
+    const Layout low = make_layout(1280.0f, 720.0f, kLargeEm, {}, true);
+    CHECK(low.right.height >= 13.5f * kLargeEm);
+    CHECK(low.accuracy.height >= 4.5f * kLargeEm);
     for (const Layout& layout : {plain, detail}) {
         CHECK(low_end(layout.right) == layout.accuracy_border.y);
         CHECK(low_end(layout.accuracy_border) == layout.accuracy.y);

@@ -33,12 +33,22 @@ constexpr std::array kGrounds{ImGuiCol_WindowBg,      ImGuiCol_ChildBg,       Im
                               ImGuiCol_HeaderHovered, ImGuiCol_HeaderActive,  ImGuiCol_Tab,
                               ImGuiCol_TabHovered,    ImGuiCol_TableHeaderBg, ImGuiCol_TableRowBgAlt};
 
+/// Grounds of values that controls fill: their text is kText.
+constexpr std::array kFilled{ImGuiCol_SliderGrab, ImGuiCol_SliderGrabActive, ImGuiCol_PlotHistogram};
+
 /// Least contrast of a color of text on all grounds, also those over the picture and of plots.
 float least_contrast(ImU32 text) {
     float least = std::min(contrast(to_vec4(text), to_vec4(colors::kGround)),
                            contrast(to_vec4(text), to_vec4(colors::kBadge | 0xff000000u)));
     for (const int ground : kGrounds)
         least = std::min(least, contrast(to_vec4(text), ImGui::GetStyle().Colors[ground]));
+    return least;
+}
+
+float least_contrast_of_filled() {
+    float least = 21.0f;
+    for (const int ground : kFilled)
+        least = std::min(least, contrast(to_vec4(colors::kText), ImGui::GetStyle().Colors[ground]));
     return least;
 }
 
@@ -58,6 +68,7 @@ TEST_CASE("Style: high contrast has 7:1 or more in all text on all grounds") {
         CAPTURE(text);
         CHECK(least_contrast(text) >= 7.0f);
     }
+    CHECK(least_contrast_of_filled() >= 7.0f);
 }
 
 TEST_CASE("Style: text of the other themes has 4.5:1 or more on all grounds") {
@@ -66,6 +77,7 @@ TEST_CASE("Style: text of the other themes has 4.5:1 or more on all grounds") {
         CAPTURE(static_cast<int>(theme));
         apply_style(1.0f, theme);
         CHECK(least_contrast(colors::kText) >= 4.5f);
+        CHECK(least_contrast_of_filled() >= 4.5f);
     }
 }
 

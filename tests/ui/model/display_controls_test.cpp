@@ -32,6 +32,26 @@ TEST_CASE("Display controls: exposure and overlays restart nothing") {
     CHECK(model.display().settings().exposure_ev == 16.0f);
 }
 
+TEST_CASE("Display controls: the colors of a heat map end at percentiles of its values, linear or logarithmic") {
+    FileBench bench;
+    ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
+    PublishedFrame frame;
+    for (int i = 1; i <= 1000; ++i) frame.snapshot.pixels.emplace_back(static_cast<float>(i));
+    frame.snapshot.pixels[3] = Vec3f{1.0e9f};  // an outlier
+    frame.serial = 7;
+    DisplayControls& display = model.display();
+    CHECK(display.heat_range(frame).scale == ColorScale::Linear);
+    CHECK(display.heat_range(frame).high <= 1000.0f);
+    display.heat_rule() = {.scale = ColorScale::Logarithmic, .low_percent = 20.0f, .high_percent = 90.0f};
+    CHECK(display.heat_range(frame).scale == ColorScale::Logarithmic);
+    CHECK_THAT(display.heat_range(frame).low, WithinAbs(200.0f, 5.0f));
+    CHECK_THAT(display.heat_range(frame).high, WithinAbs(900.0f, 5.0f));
+    // Another picture has another range.
+    frame.serial = 8;
+    for (Vec3f& pixel : frame.snapshot.pixels) pixel *= 2.0f;
+    CHECK_THAT(display.heat_range(frame).high, WithinAbs(1800.0f, 10.0f));
+}
+
 TEST_CASE("Histogram: every pixel is counted once") {
     const float nan = std::numeric_limits<float>::quiet_NaN();
     const std::vector<Vec3f> pixels{Vec3f{1.0f}, Vec3f{0.0f},  Vec3f{1.0e-9f}, Vec3f{1.0e9f},

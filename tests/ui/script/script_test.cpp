@@ -30,13 +30,14 @@ TEST_CASE("Script: every command is understood") {
                                        "\n"
                                        "2 down left\n2 up right\n3 wheel -2\n4 key W shift alt\n5 keyup W\n"
                                        "6 tap F12 shift\n7 resize 1280 720\n8 drop a file.obj\n9 shot out dir/a.png\n"
-                                       "10 expect method == default\n11 wait spp >= 16\n12 wait_spp 4\n13 quit\n"
+                                       "10 expect method == default\n11 wait spp >= 16\n12 keep_places\n13 quit\n"
                                        "14 aim_plot 0.5 1.1\n15 type a text\n16 monkey 7 100",
                                        "tour.script");
     using Kind = ScriptCommand::Kind;
-    const std::vector<Kind> kinds{Kind::Move,  Kind::Aim,  Kind::Down,   Kind::Up,      Kind::Wheel, Kind::Key,
-                                  Kind::KeyUp, Kind::Tap,  Kind::Resize, Kind::Drop,    Kind::Shot,  Kind::Expect,
-                                  Kind::Wait,  Kind::Wait, Kind::Quit,   Kind::AimPlot, Kind::Type,  Kind::Monkey};
+    const std::vector<Kind> kinds{Kind::Move,    Kind::Aim,    Kind::Down,  Kind::Up,         Kind::Wheel,
+                                  Kind::Key,     Kind::KeyUp,  Kind::Tap,   Kind::Resize,     Kind::Drop,
+                                  Kind::Shot,    Kind::Expect, Kind::Wait,  Kind::KeepPlaces, Kind::Quit,
+                                  Kind::AimPlot, Kind::Type,   Kind::Monkey};
     REQUIRE(commands.size() == kinds.size());
     for (std::size_t i = 0; i < kinds.size(); ++i) CHECK(commands[i].kind == kinds[i]);
     CHECK(commands[0].where == "tour.script:2");
@@ -49,8 +50,8 @@ TEST_CASE("Script: every command is understood") {
     CHECK(commands[9].text == "a file.obj");
     CHECK(commands[10].text == "out dir/a.png");
     CHECK(commands[12].condition.value == "16");
-    CHECK(commands[13].condition.name == "spp");
-    CHECK(commands[13].condition.op == ">=");
+    CHECK(commands[12].condition.name == "spp");
+    CHECK(commands[12].condition.op == ">=");
     CHECK(commands[15].y == 1.1);
     CHECK(commands[16].text == "a text");
     CHECK(commands[17].x == 7.0);
@@ -59,7 +60,7 @@ TEST_CASE("Script: every command is understood") {
 }
 
 TEST_CASE("Script: a wait has a limit in passes") {
-    const auto commands = parse_script("0 wait headline ~ no pixel within sight within 12\n0 wait_spp 7\n"
+    const auto commands = parse_script("0 wait headline ~ no pixel within sight within 12\n0 wait spp >= 7\n"
                                        "0 wait spp >= 3\n0 expect headline ~ within 12",
                                        "x");
     CHECK(commands[0].condition.value == "no pixel within sight");
@@ -93,7 +94,6 @@ TEST_CASE("Script: a bad line names file, line and what was expected") {
         {"0 expect colour == red", "unknown value 'colour', expected one of: method"},
         {"0 expect method = default", "expected one of == != < <= > >= ~, got '='"},
         {"0 expect method ==", "expected a value to compare with"},
-        {"0 wait_spp many", "expected a number of samples, got 'many'"},
         {"0 wait spp >= 9 within 0", "expected a number of passes, a whole number from 1, got '0'"},
         {"0 wait spp >= 9 within -1", "got '-1'"},
         {"0 wait spp >= 9 within 1.5", "got '1.5'"},

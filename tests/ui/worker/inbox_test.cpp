@@ -164,6 +164,20 @@ TEST_CASE("Inbox: a request that comes before a pass is known to be interruptibl
     CHECK(*inbox.edit_flag());
 }
 
+TEST_CASE("Inbox: a click stops the pass at rest that begins after it") {
+    Inbox inbox(Requests{.backend = "cpu"});
+    Requests now;
+    std::vector<WorkerEdit> edits;
+    REQUIRE(inbox.take(now, edits, is_busy));
+    inbox.request([](Requests& requests) {
+        requests.once.pick = Vec2f{0.5f};
+        return Interrupts::Pass;
+    });
+    CHECK_FALSE(*inbox.stop_flag());
+    inbox.begin_pass(true, now, "cpu");
+    CHECK(*inbox.stop_flag());
+}
+
 TEST_CASE("Inbox: a settled back end leaves a newer request alone") {
     Inbox inbox(Requests{.backend = "cuda"});
     inbox.settle_backend("cuda", "cpu");

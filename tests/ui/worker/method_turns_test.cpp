@@ -78,9 +78,9 @@ TEST_CASE("Method turns: both films are counted, the field is that of the first 
     CHECK(turns.status().passes == std::array<std::uint32_t, 2>{3, 2});
     REQUIRE(turns.field());
     CHECK(turns.field()->passes == 3);
-    CHECK(turns.method() == MethodId::Reinforcement);
+    CHECK(turns.status().sides.methods[turns.side()] == MethodId::Reinforcement);
     turns.set_side(1);
-    CHECK(turns.method() == MethodId::Default);
+    CHECK(turns.status().sides.methods[turns.side()] == MethodId::Default);
     CHECK(turns.first() == MethodId::Reinforcement);
     bench.render(kDefault, 1);
     turns.count(1, bench.session, View::Beauty);
@@ -162,6 +162,38 @@ TEST_CASE("Turns on the render thread: limits end them, pauses hold them") {
     worker.set_limits({});
     worker.set_paused(false);
     CHECK(eventually([&] { return both_rendered(worker, 10); }));
+}
+
+namespace {
+
+/// Whether the last passes of both sides are measured, once they are; measuring is dear beside fake passes.
+bool are_measured(RenderWorker& worker) {
+    return eventually([&] {
+        const auto runs = worker.runs()->runs;
+        const auto turns = worker.status().turns;
+        const auto is_measured = [&](std::size_t side) {
+            return std::ranges::any_of(runs, [&](const auto& run) {
+                return run->label.method == turns->sides.methods[side] &&
+                       run->points.back().spp == turns->passes[side];
+            });
+        };
+        return turns && is_measured(0) && is_measured(1);
+    });
+}
+
+}  // namespace
+
+TEST_CASE("Turns on the render thread: at rest the last passes of both are measured, whoever met a limit") {
+    Bench bench;
+    bench.control->pass_microseconds = 500;
+    RenderWorker worker(bench.setup(MethodId::Reinforcement, {.spp = 60, .seconds = 0.0}));
+    worker.set_turns(kBoth);
+    REQUIRE(eventually([&] { return worker.status().state == WorkerState::Done; }));
+    CHECK(are_measured(worker));
+    worker.set_limits({});
+    REQUIRE(eventually([&] { return both_rendered(worker, 100); }));
+    REQUIRE(rests(worker));
+    CHECK(are_measured(worker));
 }
 
 // The first pass is interrupted, so that time is charged for no sample: placing volumes takes longer than all passes of the other.

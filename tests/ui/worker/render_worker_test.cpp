@@ -42,6 +42,34 @@ TEST_CASE("Render worker: a change stops a pass at rest, and the newest change w
     CHECK(frame->picture.pixels()[0] == gray_pixel(2.0f, {}));
 }
 
+TEST_CASE("Render worker: a click is answered before the end of the pass at rest") {
+    Bench bench;
+    RenderWorker worker(bench.setup());
+    REQUIRE(frame_of(worker, 0));
+    bench.control->hold = true;
+    REQUIRE(eventually([&] { return bench.control->inside.load(); }));
+    worker.request_pick({0.5f, 0.65f});
+    CHECK(eventually([&] { return bench.control->stopped >= 1 && worker.take<PickAnswer>().has_value(); }));
+    bench.control->hold = false;
+}
+
+TEST_CASE("Render worker: a change does not wait until the pass before it is measured") {
+    Bench bench;
+    bench.control->pass_microseconds = 2000;
+    RenderWorker worker(bench.setup());
+    REQUIRE(eventually([&] { return worker.status().passes >= 3; }));  // of those that are measured on no budget
+    bench.control->finishes = true;
+    bench.control->hold = true;
+    REQUIRE(eventually([&] { return bench.control->inside.load(); }));
+    const std::uint32_t before = worker.status().passes;
+    const std::uint64_t change = worker.submit(MethodId::Precomputed);
+    bench.control->hold = false;
+    REQUIRE(frame_of(worker, change));
+    const auto run = worker.runs()->runs.front();
+    REQUIRE(run->label.method == MethodId::Default);
+    CHECK(run->points.back().spp <= before);
+}
+
 TEST_CASE("Render worker: passes in motion are finished, or a hand that never rests would see no picture") {
     Bench bench;
     RenderWorker worker(bench.setup());
