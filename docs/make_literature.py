@@ -34,7 +34,7 @@ LEAST = 0.95
 NOTES = [
     "The Breakfast Room, light samples off: in most pixels `default` does not find the sun within 64 samples. Its trimmed error is the "
     "missing light,\n  which is the same for every seed. `reinforcement` finds the sun more often; each such path is a bright pixel, so its trimmed error is larger,\n  and its whole error, of a few pixels, smaller.",
-    "Where light samples are on, so small a picture pays for asking whether guiding pays, by two training passes of small weight, and for placing volumes:\n  on The Grey & White Room, where it gives guiding up, a quarter of its 64 samples' time.",
+    "Where light samples are on, so small a picture pays for asking whether guiding pays, by two training passes of small weight, and for placing volumes:\n  on The Grey & White Room, where it gives guiding up, an eighth of its 64 samples' time.",
 ]
 
 
