@@ -52,9 +52,18 @@ Json field_json(const std::optional<FieldStatus>& field) {
 
 Json guiding_json(const std::optional<GuidingStatus>& guiding) {
     if (!guiding) return nullptr;
+    Json ratio = nullptr;
+    Json interval = nullptr;
+    if (guiding->variance_ratio) {
+        ratio = *guiding->variance_ratio;
+        interval = {*guiding->variance_ratio / guiding->ratio_factor,
+                    *guiding->variance_ratio * guiding->ratio_factor};
+    }
     return {{"pays", guiding->pays},
-            {"variance_ratio", guiding->variance_ratio ? Json(*guiding->variance_ratio) : Json(nullptr)},
-            {"unguided_passes", guiding->unguided_passes}};
+            {"variance_ratio", ratio},
+            {"variance_ratio_interval", interval},
+            {"unguided_passes", guiding->unguided_passes},
+            {"guided_share", guiding->guided_share}};
 }
 
 void add_counters(Json& stats, const PassCounters& counters) {

@@ -186,7 +186,7 @@ def tables(benches):
                            "| scene | method | samples per pixel | relMSE | trimmed | FLIP | fewer samples | time per sample | to the same error | trimmed |",
                            "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |", *rows]) + "\n\n"
     return text + ("Factors of samples, of time per sample and of time to the same error are over `default`. *Trimmed* is without the worst 0.1 % of the "
-                   "pixels.\nThe last column has the factor of time by the trimmed error, without an interval.\n\n" + "".join(f"* {n}\n" for n in NOTES) + "\n")
+                   "pixels.\nThe last column has the factor of time by the trimmed error.\n\n" + "".join(f"* {n}\n" for n in NOTES) + "\n")
 
 
 def scene_rows(bench, scene):
@@ -198,15 +198,9 @@ def scene_rows(bench, scene):
                interval(cell["relmse"]), interval(cell["relmse_trimmed"]), interval(cell["flip"])]
         gain = [c for c in bench.comparisons() if c["scene"] == scene and c["method"] == method]
         row += [interval(gain[0]["samples"]), f"{1.0 / gain[0]['cost'][0]:.2g}", verdict(gain[0]),
-                trimmed_gain(bench.cell(scene, bench.base), cell)] if gain else ["", "", "", ""]
+                interval(gain[0]["net_trimmed"])] if gain else ["", "", "", ""]
         rows.append("| " + " | ".join(row) + " |")
     return rows
-
-
-def trimmed_gain(base, cell):
-    """Time to the same trimmed relMSE, without an interval."""
-    errors = base["relmse_trimmed"][0], cell["relmse_trimmed"][0]
-    return f"{errors[0] * base['seconds'][0] / (errors[1] * cell['seconds'][0]):.3g}" if all(errors) else "unknown"
 
 
 def strips(benches):

@@ -18,8 +18,10 @@ PLOTS = DOCS / "images" / "results"
 RAW = DOCS / "results"
 GAINS = DOCS / "images" / "gains.svg"
 # The benches of the page, in its order. The first gives the plots.
-TITLES = {"light-samples-on": "With light samples", "light-samples-on-larger": "With light samples, larger pictures",
-          "light-samples-off": "Without light samples"}
+TITLES = {"light-samples-on": "With light samples", "light-samples-on-small": "With light samples, smaller pictures",
+          "light-samples-on-larger": "With light samples, larger pictures", "light-samples-off": "Without light samples"}
+# An interval that reaches further from its value is one of few bright paths: the trimmed error decides instead.
+WIDEST = (0.8, 1.25)
 COLORS = {"faster": "#1b7f4d", "undecided": "#777777", "slower": "#b4370f"}
 
 
@@ -39,7 +41,8 @@ This page has error against time of every method on every shipped scene. Each ru
 learning are charged. [make_results.py](make_results.py) makes the page of the [raw results](results) of benches.
 
 * The tables *to the same error* have the time that the first method needs over the time that another method needs, to equal error. Below 1
-  the other method needs more time.
+  the other method needs more time. *Trimmed* is without the worst {percent(definitions)} % of the pixels. Where the interval of the whole error
+  reaches below {WIDEST[0]} or above {WIDEST[1]} times its value, a few bright paths rule the error, and the trimmed error decides what is faster.
 * relMSE is {definitions['metrics']['relmse']} with epsilon {definitions['metrics']['epsilon']},
   taken against a reference in two halves, so that the reference's own noise drops out. Intervals: {definitions['intervals']}.
 * Pictures are small and runs short, so that a bench fits into minutes; the cost of an update of the tables does not depend on the size, and
@@ -75,12 +78,20 @@ def references(results):
     return f"two halves of {span} samples each, own noise (relMSE) {min(noise):.2g} to {max(noise):.2g}"
 
 
-def verdict(comparison):
-    """Time of the first method over that of this one to the same error: above 1 this one is faster."""
+def percent(definitions):
+    return f"{100 * definitions['metrics']['trimmed_share']:g}"
+
+
+def decisive(comparison):
+    """Time of the first method over that of this one to the same error, whole or trimmed: above 1 this one is faster."""
     net = comparison["net"]
-    if net[0] is None or net[1] is None or net[2] is None:
-        return "unknown"
-    return f"{interval(net)} {word_of(*net[1:])}"
+    is_narrow = None not in net and net[1] >= WIDEST[0] * net[0] and net[2] <= WIDEST[1] * net[0]
+    return net if is_narrow else comparison["net_trimmed"]
+
+
+def verdict(comparison):
+    factor = decisive(comparison)
+    return "unknown" if None in factor else word_of(*factor[1:])
 
 
 def word_of(low, high):
@@ -91,21 +102,26 @@ def gains(results):
     base = results["plan"]["methods"][0]
     others = results["plan"]["methods"][1:]
     rows = [f"### To the same error as `{base}`\n",
-            "| scene | back end | " + " | ".join(f"`{m}`" for m in others) + " |", "| --- " * (len(others) + 2) + "|"]
-    cells = {(c["scene"], c["backend"], c["method"]): verdict(c) for c in results["comparisons"]}
+            "| scene | back end | " + " | ".join(f"`{m}` | trimmed | " for m in others) + " |", "| --- " * (3 * len(others) + 2) + "|"]
+    cells = {(c["scene"], c["backend"], c["method"]): c for c in results["comparisons"]}
     for scene, backend in sorted({(s, b) for s, b, _ in cells}):
-        rows.append(f"| `{scene}` | {backend} | " + " | ".join(cells.get((scene, backend, m), "") for m in others) + " |")
-    nets = {m: [c["net"][0] for c in results["comparisons"] if c["method"] == m and c["net"][0]] for m in others}
-    return "\n".join(rows) + "\n\n" + "\n".join(count_verdicts(cells, m) + mean_factor(nets[m]) for m in others) + "\n\n"
+        found = [cells.get((scene, backend, m)) for m in others]
+        rows.append(f"| `{scene}` | {backend} | " + " | ".join(factors(c) if c else " | | " for c in found) + " |")
+    return "\n".join(rows) + "\n\n" + "\n".join(count_verdicts(results, m) + mean_factor(results, m) for m in others) + "\n\n"
 
 
-def mean_factor(factors):
-    return f" Geometric mean over {len(factors)} scenes: {statistics.geometric_mean(factors):.3g}." if factors else ""
+def factors(comparison):
+    return f"{interval(comparison['net'])} | {interval(comparison['net_trimmed'])} | {verdict(comparison)}"
 
 
-def count_verdicts(cells, method):
+def mean_factor(results, method):
+    known = [decisive(c)[0] for c in results["comparisons"] if c["method"] == method and decisive(c)[0]]
+    return f" Geometric mean over {len(known)} scenes: {statistics.geometric_mean(known):.3g}." if known else ""
+
+
+def count_verdicts(results, method):
     """A line that counts faster, undecided and slower scenes of a method, and names those that are not faster."""
-    ends = {word: sorted({f"`{s}`" for (s, _, m), text in cells.items() if m == method and text.endswith(word)})
+    ends = {word: sorted({f"`{c['scene']}`" for c in results["comparisons"] if c["method"] == method and verdict(c) == word})
             for word in ("faster", "undecided", "slower")}
     named = [f"{word} on {len(ends[word])}" + (f" ({', '.join(ends[word])})" if word != "faster" and ends[word] else "") for word in ends]
     return f"* `{method}`: {', '.join(named)}."
@@ -124,8 +140,8 @@ def ends(results):
 
 
 def gains_plot(results):
-    """An SVG of the net factor of reinforcement on every scene, with intervals, on a logarithmic axis."""
-    rows = sorted((c["net"], c["scene"]) for c in results["comparisons"] if c["method"] == "reinforcement" and None not in c["net"])
+    """An SVG of the decisive factor of reinforcement on every scene, with intervals, on a logarithmic axis."""
+    rows = sorted((decisive(c), c["scene"]) for c in results["comparisons"] if c["method"] == "reinforcement" and None not in decisive(c))
     height = 20 * len(rows) + 70
 
     def x_of(factor):

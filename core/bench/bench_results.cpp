@@ -72,6 +72,7 @@ Json comparisons_json(const BenchSummary& summary) {
                     {"samples", interval_json(gain.samples)},
                     {"cost", interval_json(gain.cost)},
                     {"net", interval_json(gain.net)},
+                    {"net_trimmed", interval_json(gain.net_trimmed)},
                     {"ahead_from_seconds", optional_json(gain.ahead_from_seconds)},
                     {"compared_until_seconds", gain.compared_until_seconds},
                     {"headline", headline(gain, comparison.base_method)}});

@@ -131,7 +131,10 @@ CellSummary summarize_cell(const BenchCell& cell, const std::vector<const BenchR
     CellSummary summary{.cell = cell};
     for (const BenchRun* run : runs) {
         const RunPoint& end = run->end();
-        summary.ends.push_back({end.metrics.relmse, static_cast<double>(end.spp), seconds_of(*run)});
+        summary.ends.push_back({.error = end.metrics.relmse,
+                                .samples = static_cast<double>(end.spp),
+                                .seconds = seconds_of(*run),
+                                .trimmed_error = end.metrics.relmse_trimmed});
         summary.over_time.push_back(run->series.error_over_time());
         summary.over_samples.push_back(run->series.error_over_samples());
         summary.invalid_samples += end.counters.invalid_samples;

@@ -12,7 +12,7 @@ namespace pl {
 namespace {
 
 constexpr SealedKind kCheckpointKind{
-    .magic = "PLCHECK\n", .version = 12, .title = "checkpoint", .word = "checkpoint"};
+    .magic = "PLCHECK\n", .version = 13, .title = "checkpoint", .word = "checkpoint"};
 
 /// transfer(), also for the kinds of values that only checkpoints hold. Each works for writing, with constant values, and for
 /// reading.
@@ -68,7 +68,7 @@ public:
     void counters(Counters& counters) {
         PassCounters copy = counters;
         add_counters(copy, counters, [this](auto& value, const auto&) { one(value); });
-        all(copy.variance.sum, copy.variance.training_sum, copy.variance.samples);
+        VarianceSums::each(copy.variance, counters.variance, [this](auto& value, const auto&) { one(value); });
         if constexpr (!std::is_const_v<Counters>) counters = copy;
     }
 
@@ -76,7 +76,8 @@ public:
     void progress(Film& film) {
         auto& origin = film.origin;
         all(origin.number, origin.generation, origin.warm, origin.place_seconds, origin.precompute_seconds);
-        all(film.is_allocated, film.passes, film.next_pixel, film.render_seconds, film.learn_seconds);
+        all(film.is_allocated, film.passes, film.next_pixel, film.render_seconds, film.guided_seconds,
+            film.learn_seconds);
         counters(film.counters);
         GuidingChoice::each_value(film.guiding, [this](auto& value) { one(value); });
         all(film.is_guided, film.trains, film.unguided_passes);

@@ -86,6 +86,7 @@ Gain gain_over(std::span<const RunEnd> base, std::span<const RunEnd> method, std
     Gain gain{.samples = ratio([](const RunEnd& run) { return run.error_samples(); }),
               .cost = ratio([](const RunEnd& run) { return run.seconds / run.samples; }),
               .net = ratio([](const RunEnd& run) { return run.error_seconds(); }),
+              .net_trimmed = ratio([](const RunEnd& run) { return run.trimmed_error * run.seconds; }),
               .runs = std::min(base.size(), method.size()),
               .ahead_from_seconds = {}};
     std::vector<Curve> both(base_curves.begin(), base_curves.end());

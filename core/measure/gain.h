@@ -1,6 +1,7 @@
 // Gain of a method over a baseline: its three factors, and a sentence.
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -17,6 +18,8 @@ struct RunEnd {
     double error = 0.0;    ///< squared
     double samples = 0.0;  ///< per pixel
     double seconds = 0.0;  ///< charged, set-up included
+    /// Without the share kTrimmedShare of the pixels, the worst ones; NaN if it is not known.
+    double trimmed_error = std::numeric_limits<double>::quiet_NaN();
 
     double error_samples() const { return error * samples; }  ///< variance of one sample
     double error_seconds() const {
@@ -26,10 +29,11 @@ struct RunEnd {
 
 /// Ratios above 1 are in favor of the method.
 struct Gain {
-    Interval samples;      ///< samples of the baseline over samples of the method, for the same error
-    Interval cost;         ///< cost of a sample, baseline over method; mostly below 1
-    Interval net;          ///< time to the same error, baseline over method: the product of both
-    std::size_t runs = 0;  ///< of the side with fewer
+    Interval samples;        ///< samples of the baseline over samples of the method, for the same error
+    Interval cost;           ///< cost of a sample, baseline over method; mostly below 1
+    Interval net;            ///< time to the same error, baseline over method: the product of both
+    Interval net_trimmed{};  ///< time to the same trimmed error, where it is known
+    std::size_t runs = 0;    ///< of the side with fewer
     std::optional<double>
         ahead_from_seconds;               ///< its error stays below from then on; empty if it is above at the end
     double compared_until_seconds = 0.0;  ///< end of the range that both were measured in

@@ -109,7 +109,7 @@ Interval ratio_interval(std::span<const double> numerator, std::span<const doubl
     const double ratio = a.mean - b.mean;
     if (numerator.size() < 2 || denominator.size() < 2) return exponential(around(ratio, kInfinite));
     const double variance = a.of_mean + b.of_mean;
-    if (variance == 0.0) return exponential(around(ratio, 0.0));
+    if (!(variance > 0.0)) return exponential(around(ratio, 0.0));  // or NaN, as the ratio is
     // Satterthwaite's degrees of freedom.
     const double freedom =
         variance * variance / (a.of_mean * a.of_mean / (a.n - 1.0) + b.of_mean * b.of_mean / (b.n - 1.0));

@@ -202,7 +202,9 @@ void FilmRenderer::render_part(FilmSlot slot, std::uint32_t end, const StopFlag*
     request.most_passes = most_passes;
     guiding_.shape(slot, film, request);
     const PassCounters counters = backend().run_pass(request);
-    film.render_seconds += watch.seconds();
+    const double seconds = watch.seconds();
+    film.render_seconds += seconds;
+    film.guided_seconds += film.is_guided ? seconds : 0.0;
     film.counters += counters;
     film.measured += counters;
     note_escapes(slot, counters);

@@ -56,7 +56,9 @@ std::optional<GuidingStatus> GuidedPasses::status(FilmSlot slot, const FilmProgr
     if (!chooses(slot)) return std::nullopt;
     return GuidingStatus{.pays = film.guiding.pays(),
                          .variance_ratio = film.guiding.variance_ratio(),
-                         .unguided_passes = film.unguided_passes};
+                         .ratio_factor = film.guiding.ratio_factor(),
+                         .unguided_passes = film.unguided_passes,
+                         .guided_share = film.guided_seconds / film.render_seconds};
 }
 
 }  // namespace pl

@@ -21,17 +21,21 @@ class PathNoise {
 public:
     /// Adds paths of a pass.
     void add_paths(const PassCounters& counters);
-    /// Adds the relative variances of so many samples: their sum.
-    void add_variance(double total, std::uint64_t samples);
+    /// Adds the relative variances of so many samples: the sums of their estimates and of the squares of these.
+    void add_variance(double total, double squares, std::uint64_t samples);
 
     bool is_measured() const { return samples_ > 0.0; }
+    double samples() const { return samples_; }
     double variance() const { return variance_ / samples_; }  ///< relative, of a path's sample; NaN before the first
-    double lit_share() const { return lit_ / paths_; }        ///< of paths that bring light; NaN before the first
+    /// The squared standard error of variance(), over its square.
+    double squared_error() const { return (squares_ / (variance() * variance()) - samples_) / (samples_ * samples_); }
+    double lit_share() const { return lit_ / paths_; }  ///< of paths that bring light; NaN before the first
 
     /// As GuidingChoice::each_value().
     template <class Noise, class Fn>
     static void each_value(Noise& noise, Fn&& fn) {
         fn(noise.variance_);
+        fn(noise.squares_);
         fn(noise.samples_);
         fn(noise.lit_);
         fn(noise.paths_);
@@ -39,6 +43,7 @@ public:
 
 private:
     double variance_ = 0.0;
+    double squares_ = 0.0;
     double samples_ = 0.0;  ///< measured
     double lit_ = 0.0;
     double paths_ = 0.0;
@@ -80,6 +85,8 @@ public:
 
     /// Relative variance of a path of the baseline, over the relative variance of a guided path. Empty before the first decision of this film.
     std::optional<double> variance_ratio() const { return ratio_; }
+    /// The factor that variance_ratio() may be off by, up or down: its bounds of 95 %, by the delta method.
+    double ratio_factor() const { return ratio_factor_; }
 
     /// Calls fn(value) for every value of its state, for checkpoints. `choice` may be const.
     template <class Choice, class Fn>
@@ -88,17 +95,22 @@ public:
         PathNoise::each_value(choice.baseline_, fn);
         fn(choice.schedule_.each);
         fn(choice.schedule_.warm_up);
+        fn(choice.products_);
         fn(choice.ratio_);
+        fn(choice.ratio_factor_);
         fn(choice.belief_);
     }
 
 private:
-    void decide(double least_ratio);
+    void measure_ratio(bool is_warm_up);
+    void decide(double least_ratio, bool is_warm_up);
 
     PathNoise guided_;
     PathNoise baseline_;
+    double products_ = 0.0;  ///< of both variances in a pixel of a warm-up, summed
     PassSchedule schedule_{};
     std::optional<double> ratio_;
+    double ratio_factor_ = 1.0;
     std::optional<bool> belief_;  ///< whether guiding pays
 };
 

@@ -20,6 +20,7 @@ struct FilmProgress {
     std::uint32_t next_pixel = 0;  ///< number of pixels that the running pass has rendered
     PassCounters counters{};
     double render_seconds = 0.0;
+    double guided_seconds = 0.0;  ///< of these, by guided passes
     double learn_seconds = 0.0;
 
     GuidingChoice guiding{};

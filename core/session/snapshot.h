@@ -54,7 +54,9 @@ struct FieldStatus {
 struct GuidingStatus {
     bool pays = true;                      ///< the next passes are guided, as far as is known
     std::optional<double> variance_ratio;  ///< GuidingChoice::variance_ratio()
+    double ratio_factor = 1.0;             ///< GuidingChoice::ratio_factor()
     std::uint32_t unguided_passes = 0;     ///< of the film
+    double guided_share = 0.0;             ///< of the time of the film's passes; NaN before the first
 };
 
 struct Snapshot {

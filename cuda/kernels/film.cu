@@ -13,11 +13,9 @@ __global__ void __launch_bounds__(kThreadsPerBlock)
     VarianceSums sums;
     if (i < samples.radiance.count)
         (void)add_sample(film, samples.first + i, samples.radiance[i], samples.pass, samples.measure, sums);
-    if (!samples.measure.is_any()) return;
-    VarianceSums& totals = samples.counters->variance;
-    add_up(totals.sum, sums.sum);
-    add_up(totals.training_sum, sums.training_sum);
-    add_up(totals.samples, sums.samples);
+    if (!samples.measure.is_any) return;
+    VarianceSums::each(samples.counters->variance, sums,
+                       [](std::uint64_t& total, std::uint64_t sum) { add_up(total, sum); });
 }
 
 __global__ void __launch_bounds__(kThreadsPerBlock)

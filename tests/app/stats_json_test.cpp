@@ -93,15 +93,21 @@ TEST_CASE("statistics tell whether guiding pays, for methods that guide and may 
     CHECK(stats_of({"--method", "reinforcement", "--nee", "off"})["guiding"].is_null());
     CHECK(stats_of({"--method", "reinforcement", "--nee", "on", "--guiding", "always"})["guiding"].is_null());
     const ordered_json early = stats_of({"--method", "reinforcement", "--nee", "on", "--spp", "2"})["guiding"];
-    CHECK(keys_of(early) == std::vector<std::string>{"pays", "variance_ratio", "unguided_passes"});
+    CHECK(keys_of(early) == std::vector<std::string>{"pays", "variance_ratio", "variance_ratio_interval",
+                                                     "unguided_passes", "guided_share"});
     CHECK(early["pays"] == true);
     CHECK(early["variance_ratio"].is_null());
+    CHECK(early["variance_ratio_interval"].is_null());
     const ordered_json late =
         stats_of({"--method", "reinforcement", "--bsdf-fraction", "1", "--roulette", "albedo", "--volumes", "20",
                   "--nee", "on", "--spp", "20", "--size", "128x128"})["guiding"];
     CHECK(late["pays"] == false);
     CHECK(late["variance_ratio"] < 1.2);
     CHECK(late["variance_ratio"] > 0.8);
+    CHECK(late["variance_ratio_interval"][0] < late["variance_ratio"]);
+    CHECK(late["variance_ratio_interval"][1] > late["variance_ratio"]);
+    CHECK(late["guided_share"] > 0.0);
+    CHECK(late["guided_share"] < 1.0);
     CHECK(late["unguided_passes"] == 18);
 }
 

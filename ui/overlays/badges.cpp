@@ -77,17 +77,21 @@ std::string whose(const ViewerModel& model, std::size_t side) {
     return runs && std::ranges::all_of(*runs, has_field) ? name_of((*runs)[side]) + ": " : "";
 }
 
-/// Whether guiding pays in this picture, as its paths predict: the error of the picture is measured against the baseline elsewhere.
-/// Guiding that pays with a ratio below 1 has found hidden light, see GuidingChoice.
+/// Whether guiding pays in this picture, by the variances of its paths: the error of the picture is measured against the baseline
+/// elsewhere. Guiding that pays with a ratio below 1 has found hidden light, see GuidingChoice.
 void add_guiding_badge(BadgeRow& row, const PublishedFrame& frame, const std::string& run) {
     const auto& guiding = frame.snapshot.guiding;
     if (!guiding || !guiding->variance_ratio) return;
-    const std::string shared = fmt::format(": {} by Default", passes_text(guiding->unguided_passes));
+    const double ratio = *guiding->variance_ratio;
+    const std::string share = fmt::format(", guided {:.0f} % of the time", 100.0 * guiding->guided_share);
+    const std::string measured = fmt::format(": {:.2g} ({:.2g} to {:.2g}) times less variance", ratio,
+                                             ratio / guiding->ratio_factor, ratio * guiding->ratio_factor);
     if (!guiding->pays)
-        row.add(run + "guiding given up" + shared, colors::kWarning);
+        row.add(run + "guiding given up" + measured + share, colors::kWarning);
+    else if (ratio < 1.0)
+        row.add(run + "guiding finds light that Default misses" + share, colors::kGood);
     else
-        row.add(run + (*guiding->variance_ratio < 1.0 ? "guiding finds light that Default misses" : "guiding pays"),
-                colors::kGood);
+        row.add(run + "guiding pays" + measured + share, colors::kGood);
 }
 
 /// Light that the scene's files do not have, or its lack.

@@ -27,7 +27,7 @@ struct PassSchedule {
     static constexpr std::uint32_t kWeight = 8;
 
     /// The pass of the first question: after a warm-up; and without one, in a picture that begins by the choice of another one.
-    static constexpr std::uint32_t kFirstQuestion = 64;
+    static constexpr std::uint32_t kFirstQuestion = 128;
     static constexpr std::uint32_t kEarlyQuestion = 8;
     /// Each further question comes so many times as late.
     static constexpr std::uint32_t kQuestionFactor = 4;

@@ -12,24 +12,43 @@ struct VarianceSums {
     std::uint64_t sum = 0;           ///< in steps; biased, see measure_variance()
     std::uint64_t training_sum = 0;  ///< of the training samples that these were measured against
     std::uint64_t samples = 0;       ///< measured ones
+    /// Sums of squares and of the products of both, for the error of these sums.
+    std::uint64_t squares = 0;
+    std::uint64_t training_squares = 0;
+    std::uint64_t products = 0;
 
     /// Contributions of one sample are clamped here, so that a single path decides nothing: far above 1, because rare bright paths are
     /// most of the variance that guiding can take away (docs/notebook/2026-11-29-one-ratio.md).
     static constexpr float kMost = 1024.0f;
-    static constexpr double kSteps = 0x1p24;  ///< per unit: 2^28 samples of the largest size do not overflow
+    static constexpr double kSteps = 0x1p24;         ///< per unit: 2^28 samples of the largest size do not overflow
+    static constexpr double kProductSteps = 0x1p14;  ///< of squares and products: as many
     /// Added to the squared mean, as in relMSE (core/measure).
     static constexpr float kLeastSquare = 0.01f;
 
-    VarianceSums& operator+=(const VarianceSums& other) {
-        sum += other.sum;
-        training_sum += other.training_sum;
-        samples += other.samples;
-        return *this;
+    /// Calls fn(total, sum) for every sum.
+    template <class Totals, class Sums, class Fn>
+    PL_HD static void each(Totals& totals, Sums& sums, Fn&& fn) {
+        fn(totals.sum, sums.sum);
+        fn(totals.training_sum, sums.training_sum);
+        fn(totals.samples, sums.samples);
+        fn(totals.squares, sums.squares);
+        fn(totals.training_squares, sums.training_squares);
+        fn(totals.products, sums.products);
     }
 
-    /// The relative variances of all measured samples, and of the training samples: sums.
-    double total() const { return units_of(sum); }
-    double training_total() const { return units_of(training_sum); }
+    /// Adds the variances of a measured sample and of its training samples, in steps.
+    PL_HD void add(std::int64_t own, std::int64_t training) {
+        ++samples;
+        sum += static_cast<std::uint64_t>(own);
+        training_sum += static_cast<std::uint64_t>(training);
+        squares += product_of(own, own);
+        training_squares += product_of(training, training);
+        products += product_of(own, training);
+    }
+
+    /// Of all measured samples: relative variances, their squares and products.
+    static double units_of(std::uint64_t steps) { return signed_of(steps) / kSteps; }
+    static double product_units_of(std::uint64_t steps) { return signed_of(steps) / kProductSteps; }
 
     /// The steps of a variance, by channels, over mean^2 + kLeastSquare.
     PL_HD static std::int64_t steps_of(Vec3f variance, Vec3f mean) {
@@ -43,26 +62,22 @@ struct VarianceSums {
 private:
     static constexpr float kThird = 1.0f / 3.0f;
 
-    static double units_of(std::uint64_t steps) {
-        return static_cast<double>(static_cast<std::int64_t>(steps)) / kSteps;
+    static double signed_of(std::uint64_t steps) { return static_cast<double>(static_cast<std::int64_t>(steps)); }
+    PL_HD static std::uint64_t product_of(std::int64_t a, std::int64_t b) {
+        const double product = static_cast<double>(a) * static_cast<double>(b) * (kProductSteps / (kSteps * kSteps));
+        return static_cast<std::uint64_t>(static_cast<std::int64_t>(product));
     }
 };
 
-/// Which samples of a film are measured, and against which: see measure_variance().
+/// Whether the samples of a pass are measured, against the half of the film that the pass does not belong to: see measure_variance().
 struct VarianceMeasure {
-    enum class Samples : std::uint32_t {
-        None,
-        Pass,             ///< the pass's own ones, against the half of the film that the pass does not belong to
-        PassAndTraining,  ///< and the second half, which is training samples
-    };
-    Samples samples = Samples::None;
-    std::int32_t training = 0;  ///< training samples of a pixel
+    bool is_any = false;
+    std::int32_t training =
+        0;  ///< samples of a pixel in the second half, if these are training samples and measured, too; else 0
 
     /// Neighbors in a row of memory, which begin at multiples of their number: training samples of a pixel are few, so that the
     /// mean radiance is known from them.
     static constexpr std::uint32_t kBlock = 4;
-
-    PL_HD bool is_any() const { return samples != Samples::None; }
 };
 
 /// The mean of the second half of a pixel's neighbors in its block, without the pixel itself; NaN if they have no samples.
@@ -89,7 +104,7 @@ PL_HD inline Vec3f mean_around(const FilmView& film, std::uint32_t pixel) {
 /// half, so that what is read of them stays.
 PL_HD inline void measure_variance(const FilmView& film, std::uint32_t pixel, Vec3f radiance, std::uint32_t pass,
                                    VarianceMeasure measure, VarianceSums& sums) {
-    const bool has_training = measure.samples == VarianceMeasure::Samples::PassAndTraining;
+    const bool has_training = measure.training > 0;
     PL_ASSERT(!has_training || !in_second_half(pass));
     const FilmPixel& p = film.pixels[pixel];
     const bool sees_lamp = p.emission.is_lit() || p.emission.varies != 0 || p.emission.at_border != 0;
@@ -97,19 +112,16 @@ PL_HD inline void measure_variance(const FilmView& film, std::uint32_t pixel, Ve
     const Vec3f mean = half_mean(p, !in_second_half(pass));
     const Vec3f over = has_training ? mean_around(film, pixel) : mean;
     if (mean.x != mean.x || over.x != over.x) return;
-    ++sums.samples;
-    sums.sum += static_cast<std::uint64_t>(VarianceSums::steps_of(radiance * (radiance - mean), over));
-    if (!has_training) return;
     const Vec3f total = static_cast<float>(measure.training) * mean;
     const Vec3f expected = static_cast<float>(measure.training) * radiance;
-    const std::int64_t steps = VarianceSums::steps_of(total * (total - expected), over);
-    sums.training_sum += static_cast<std::uint64_t>(steps / measure.training);
+    sums.add(VarianceSums::steps_of(radiance * (radiance - mean), over),
+             has_training ? VarianceSums::steps_of(total * (total - expected), over) / measure.training : 0);
 }
 
 /// Adds the sample of a pass, and measures what is to be measured. Returns false if the sample is invalid.
 PL_HD inline bool add_sample(const FilmView& film, std::uint32_t pixel, Vec3f radiance, std::uint32_t pass,
                              VarianceMeasure measure, VarianceSums& sums) {
-    if (measure.is_any()) measure_variance(film, pixel, radiance, pass, measure, sums);
+    if (measure.is_any) measure_variance(film, pixel, radiance, pass, measure, sums);
     return accumulate(film, pixel, radiance, pass);
 }
 

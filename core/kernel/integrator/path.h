@@ -158,8 +158,9 @@ PL_HD inline void add_counters(PassCountersOf<Total>& totals, const PassCounters
 }
 
 inline PassCounters& operator+=(PassCounters& totals, const PassCounters& counts) {
-    add_counters(totals, counts, [](std::uint64_t& total, std::uint64_t count) { total += count; });
-    totals.variance += counts.variance;
+    const auto add = [](std::uint64_t& total, std::uint64_t count) { total += count; };
+    add_counters(totals, counts, add);
+    VarianceSums::each(totals.variance, counts.variance, add);
     return totals;
 }
 

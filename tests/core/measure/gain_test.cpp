@@ -24,7 +24,9 @@ struct Runs {
             Curve curve;
             for (double t = 0.5; t < 65.0; t *= 2.0)
                 if (t > setup) curve.push_back({t, c * scatter / (t - setup)});
-            ends.push_back({curve.back().error, rate * (curve.back().cost - setup), curve.back().cost});
+            ends.push_back({.error = curve.back().error,
+                            .samples = rate * (curve.back().cost - setup),
+                            .seconds = curve.back().cost});
             curves.push_back(curve);
         }
     }
@@ -48,6 +50,18 @@ TEST_CASE("fewer samples, dearer samples, and their product") {
     CHECK_THAT(headline(gain, "default"),
                contains("needs 6.0x fewer samples than default, each costs 2.0x more: 3.0x faster to the same error "
                         "(95 %: 2.8 to 3.2), ahead from 0.5 s on"));
+}
+
+TEST_CASE("the time to the same trimmed error, where it is known") {
+    Runs base(6.0, 0.0, 100.0);
+    Runs method(2.0, 0.0, 50.0);
+    CHECK_FALSE(std::isfinite(gain_of(base, method).net_trimmed.value));
+    for (Runs* runs : {&base, &method})
+        for (RunEnd& end : runs->ends) end.trimmed_error = 0.5 * end.error;
+    for (RunEnd& end : method.ends) end.trimmed_error *= 0.5;
+    const Gain gain = gain_of(base, method);
+    CHECK_THAT(gain.net_trimmed.value, WithinRel(2.0 * gain.net.value, 1e-9));
+    CHECK_THAT(gain.net_trimmed.low, WithinRel(2.0 * gain.net.low, 1e-9));
 }
 
 TEST_CASE("a loss is reported like a gain") {

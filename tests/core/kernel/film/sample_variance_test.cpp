@@ -10,14 +10,16 @@ using namespace pl;
 
 namespace {
 
-constexpr VarianceMeasure kPass{VarianceMeasure::Samples::Pass};
+constexpr VarianceMeasure kPass{.is_any = true};
 
 /// Measured with so many training samples a pixel.
-VarianceMeasure with_training(std::int32_t samples) { return {VarianceMeasure::Samples::PassAndTraining, samples}; }
+VarianceMeasure with_training(std::int32_t samples) { return {.is_any = true, .training = samples}; }
 
-double mean_of(const VarianceSums& sums) { return sums.total() / static_cast<double>(sums.samples); }
+double mean_of(const VarianceSums& sums) {
+    return VarianceSums::units_of(sums.sum) / static_cast<double>(sums.samples);
+}
 double training_mean_of(const VarianceSums& sums) {
-    return sums.training_total() / static_cast<double>(sums.samples);
+    return VarianceSums::units_of(sums.training_sum) / static_cast<double>(sums.samples);
 }
 
 FilmView view_of_film(std::vector<FilmPixel>& pixels) {
@@ -95,7 +97,7 @@ TEST_CASE("Sample variance: pixels without samples in the other half, lamps and 
     pixels[0].emission.at_border = 1;
     measure_variance(film, 0, Vec3f{2.0f}, 3, kPass, sums);
     CHECK(sums.samples == 0);
-    CHECK(sums.total() == 0.0);
+    CHECK(sums.sum == 0);
     pixels[0].emission.at_border = 0;
     measure_variance(film, 0, Vec3f{2.0f}, 3, kPass, sums);
     CHECK(sums.samples == 1);
@@ -151,6 +153,12 @@ TEST_CASE(
             add_sample(film, i, Vec3f{2.0f}, pass, with_training(1), sums);
             CHECK(mean_of(sums) == Approx(2.0 * (2.0 - own) / (mean * mean + 0.01)));
             CHECK(training_mean_of(sums) == Approx(own * (own - 2.0) / (mean * mean + 0.01)));
+            const double unit = 0x1p-14;  // of squares and products, which are rounded towards zero
+            CHECK(std::fabs(VarianceSums::product_units_of(sums.squares) - mean_of(sums) * mean_of(sums)) <= unit);
+            CHECK(std::fabs(VarianceSums::product_units_of(sums.training_squares) -
+                            training_mean_of(sums) * training_mean_of(sums)) <= unit);
+            CHECK(std::fabs(VarianceSums::product_units_of(sums.products) - mean_of(sums) * training_mean_of(sums)) <=
+                  unit);
         }
     // A pixel that sees a lamp is not measured, but its neighbors are.
     pixels[9].emission = EmissionSeen::of(5.0f);
@@ -177,10 +185,13 @@ TEST_CASE("Sample variance: one path of any radiance adds a bounded share") {
             for (const VarianceMeasure measure : {kPass, with_training(2)}) {
                 VarianceSums sums;
                 measure_variance(film, 0, Vec3f{radiance}, 4, measure, sums);
-                INFO(earlier << ", " << radiance << ": " << sums.total());
+                INFO(earlier << ", " << radiance << ": " << mean_of(sums));
                 CHECK(sums.samples == 1);
-                CHECK(std::fabs(sums.total()) <= VarianceSums::kMost);
-                CHECK(std::fabs(sums.training_total()) <= VarianceSums::kMost);
+                CHECK(std::fabs(mean_of(sums)) <= VarianceSums::kMost);
+                CHECK(std::fabs(training_mean_of(sums)) <= VarianceSums::kMost);
+                for (const std::uint64_t product : {sums.squares, sums.training_squares, sums.products})
+                    CHECK(std::fabs(VarianceSums::product_units_of(product)) <=
+                          VarianceSums::kMost * VarianceSums::kMost);
             }
     }
 }
