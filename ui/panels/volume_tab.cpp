@@ -19,10 +19,6 @@ void draw_choices(CellDisplay& display) {
     range_controls(display.range);
 }
 
-std::string interval_text(const Interval& interval) {
-    return fmt::format("{:.3g} ({:.3g} to {:.3g})", interval.value, interval.low, interval.high);
-}
-
 void draw_figures(const LightReport& report) {
     const GuidingFigures& figures = report.figures;
     text_row(
