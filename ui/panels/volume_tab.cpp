@@ -15,7 +15,7 @@ namespace {
 
 void draw_choices(CellDisplay& display) {
     choice_row("quantity", "Of a cell.", &display.quantity, em(8.0f));
-    ImGui::SameLine();
+    same_line_for(em(13.0f));
     range_controls(display.range);
 }
 
@@ -96,7 +96,7 @@ void draw_learning_buttons(ViewerModel& model) {
     if (ImGui::SmallButton("forget volume")) model.render().forget_volume(model.selection().volume());
     note_place("forget volume");
     tooltip("This volume begins anew, as if it had never been trained; all others keep what they learned.");
-    ImGui::SameLine();
+    same_line_for(em(8.5f));
 }
 
 }  // namespace

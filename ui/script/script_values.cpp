@@ -161,6 +161,7 @@ constexpr std::array kValues{
     Value{"tooltip_place", tooltip_place},
     Value{"panels", [](const ViewerModel& m) { return word(m.window().panels.shown); }},
     Value{"badges", [](const ViewerModel&) { return gui_memory().badges; }},
+    Value{"cut", [](const ViewerModel&) { return gui_memory().cut.empty() ? "none" : gui_memory().cut; }},
     Value{"moved", [](const ViewerModel&) { return gui_memory().moved.empty() ? "none" : gui_memory().moved; }},
     Value{"theme", [](const ViewerModel& m) { return std::string(pl::name_of(m.window().theme)); }},
     Value{"keyed_panel",
