@@ -19,8 +19,8 @@ namespace {
 /// Small labels in a row, from the left.
 class BadgeRow {
 public:
-    BadgeRow(ImVec2 corner, float right)
-        : list_(*ImGui::GetBackgroundDrawList()), corner_(corner), left_(corner.x), right_(right) {}
+    BadgeRow(ImVec2 corner, float right, float end)
+        : list_(*ImGui::GetBackgroundDrawList()), corner_(corner), left_(corner.x), right_(right), end_(end) {}
 
     void add(const std::string& text, ImU32 color) {
         gui_memory().badges += text + "; ";
@@ -29,7 +29,8 @@ public:
         const float width = size.x + 2.0f * pad.x;
         const float height = size.y + 2.0f * pad.y;
         if (corner_.x + width > right_ && corner_.x > left_) corner_ = {left_, corner_.y + height + em(0.3f)};
-        if (corner_.y + height > gui_memory().low_card_start) return;  // no room above the card
+        if (corner_.y + height > end_) return;  // no room above the card and the names of compared pictures
+        if (corner_.x + width > right_) gui_memory().cut += text + "; ";
         list_.AddRectFilled(corner_, {corner_.x + width, corner_.y + height}, colors::kBadge, em(0.2f));
         list_.AddText({corner_.x + pad.x, corner_.y + pad.y}, color, text.c_str());
         corner_.x += width + em(0.35f);
@@ -63,6 +64,7 @@ private:
     ImVec2 corner_;
     float left_;
     float right_;
+    float end_;
 };
 
 bool is_given_up(const PublishedFrame& frame) {
@@ -100,13 +102,14 @@ void add_picture_badges(BadgeRow& row, const ViewerModel& model, const Published
     const Snapshot& snapshot = frame.snapshot;
     const View view = snapshot.slot.view;
     const std::string back_end = back_end_label(frame.backend.name);
-    if (view == View::Beauty || view == View::RadianceMap)
-        row.add(fmt::format("{}, {}  {}  {} spp  {}", method_text(frame.settings, snapshot.slot.method),
-                            light_samples_text(frame.settings.next_event), back_end, snapshot.passes,
-                            short_seconds(work_seconds(snapshot.clocks))),
-                colors::kText);
-    else
-        row.add(fmt::format("{}  {}  {} spp", info_of(view).label, back_end, snapshot.passes), colors::kText);
+    const bool shows_light = view == View::Beauty || view == View::RadianceMap;
+    row.add(shows_light ? fmt::format("{}, {}", method_text(frame.settings, snapshot.slot.method),
+                                      light_samples_text(frame.settings.next_event))
+                        : std::string(info_of(view).label),
+            colors::kText);
+    row.add(fmt::format("{}  {} spp{}", back_end, snapshot.passes,
+                        shows_light ? "  " + short_seconds(work_seconds(snapshot.clocks)) : ""),
+            colors::kText);
     if (frame.preview == Preview::LightSamples) row.add("while moving: preview with light samples", colors::kWarning);
     if (frame.preview == Preview::RadianceMap)
         row.add("while moving: preview by the learned radiance map", colors::kWarning);
@@ -246,7 +249,9 @@ void draw_badges(ViewerModel& model, const Layout& layout, const ComparePlan& pl
     // Below a card, which has its place: badges come, go and wrap while pictures render.
     gui_memory().badges.clear();
     const float top = std::max(gui_memory().top_card_end, view.y) + em(0.6f);
-    BadgeRow row({view.x + em(0.6f), top}, view.x + view.width - em(0.6f));
+    const float names = plan.tiles.empty() ? gui_memory().low_card_start : top_of_names(plan, {});
+    BadgeRow row({view.x + em(0.6f), top}, view.x + view.width - em(0.6f),
+                 std::min(names, gui_memory().low_card_start));
     // Compared pictures have labels of their own.
     if (model.frame() != nullptr && plan.tiles.empty()) add_picture_badges(row, model, *model.frame());
     if (model.frame() != nullptr) add_guiding_badge(row, *model.frame(), whose(model, 0));
