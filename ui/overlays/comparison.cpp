@@ -80,8 +80,8 @@ void draw_handle(ViewerModel& model, const CompareTile& tile, float x) {
     ImGui::PopStyleVar(2);
     if (held) model.comparison().set_split((ImGui::GetIO().MousePos.x - place.x) / place.width);
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
-    // In the part that no card covers.
-    const float low = std::max(seen.y, gui_memory().top_card_end) + em(0.6f);
+    // In the part that no card covers, and no row of badges below it.
+    const float low = std::max(seen.y, gui_memory().top_card_end) + em(2.8f);
     const float high = std::min(seen.y + seen.height, gui_memory().low_card_start) - em(0.6f);
     const float middle = std::clamp(seen.y + 0.5f * seen.height, low, std::max(low, high));
     note_place("split line", {x - em(0.5f), middle - em(0.5f), em(1.0f), em(1.0f)});
