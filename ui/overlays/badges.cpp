@@ -24,37 +24,38 @@ public:
 
     void add(const std::string& text, ImU32 color) {
         gui_memory().badges += text + "; ";
-        const ImVec2 pad{em(0.45f), em(0.2f)};
-        const ImVec2 size = ImGui::CalcTextSize(text.c_str());
-        const float width = size.x + 2.0f * pad.x;
-        const float height = size.y + 2.0f * pad.y;
-        if (corner_.x + width > right_ && corner_.x > left_) corner_ = {left_, corner_.y + height + em(0.3f)};
-        if (corner_.y + height > end_) return;  // no room above the card and the names of compared pictures
+        const float width = ImGui::CalcTextSize(text.c_str()).x + em(0.9f);
+        if (!find_room(width)) return;
         if (corner_.x + width > right_) gui_memory().cut += text + "; ";
-        list_.AddRectFilled(corner_, {corner_.x + width, corner_.y + height}, colors::kBadge, em(0.2f));
-        list_.AddText({corner_.x + pad.x, corner_.y + pad.y}, color, text.c_str());
+        list_.AddRectFilled(corner_, {corner_.x + width, bottom()}, colors::kBadge, em(0.2f));
+        list_.AddText({corner_.x + em(0.45f), corner_.y + em(0.2f)}, color, text.c_str());
         corner_.x += width + em(0.35f);
     }
 
-    float bottom() const { return corner_.y + ImGui::GetTextLineHeight() + 2.0f * em(0.2f); }
+    float bottom() const { return corner_.y + ImGui::GetTextLineHeight() + em(0.4f); }
 
     /// The colors of a heat map from its lowest to its highest value, and their meaning.
     void add_heat_legend(const std::string& text) {
-        const float height = ImGui::GetTextLineHeight() + 2.0f * em(0.2f);
         const float step = em(0.5f);
         const float width = step * static_cast<float>(kHeatSteps);
-        if (corner_.x + width > right_ && corner_.x > left_) corner_ = {left_, corner_.y + height + em(0.3f)};
+        if (!find_room(width)) return;
         for (int i = 0; i < kHeatSteps; ++i) {
             const float x = corner_.x + step * static_cast<float>(i);
             const ImU32 low = heat_color_at(i);
             const ImU32 high = heat_color_at(i + 1);
-            list_.AddRectFilledMultiColor({x, corner_.y}, {x + step, corner_.y + height}, low, high, high, low);
+            list_.AddRectFilledMultiColor({x, corner_.y}, {x + step, bottom()}, low, high, high, low);
         }
         corner_.x += width + em(0.1f);
         add(text, colors::kText);
     }
 
 private:
+    /// In the next row where this one ends; false above the card or the names of compared pictures.
+    bool find_room(float width) {
+        if (corner_.x + width > right_ && corner_.x > left_) corner_ = {left_, bottom() + em(0.3f)};
+        return bottom() <= end_;
+    }
+
     static ImU32 heat_color_at(int step) {
         const ByteColor color = heat_color(static_cast<float>(step) / static_cast<float>(kHeatSteps));
         return IM_COL32(color.r, color.g, color.b, 255);

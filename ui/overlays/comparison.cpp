@@ -18,25 +18,7 @@ float label_wrap(const CompareTile& tile) {
     return std::max(tile.clip.width - em(1.2f) - 2.0f * label_padding().x, em(4.0f));
 }
 
-/// The label in lines that fit. They break between its parts, which two spaces divide: a number is never cut at its point.
-std::string label_lines(const CompareTile& tile) {
-    const float most = label_wrap(tile);
-    std::string lines;
-    std::string line;
-    for (std::size_t start = 0; start < tile.label.size();) {
-        const std::size_t end = std::min(tile.label.find("  ", start), tile.label.size());
-        const std::string part = tile.label.substr(start, end - start);
-        const std::string longer = line.empty() ? part : line + "  " + part;
-        if (!line.empty() && ImGui::CalcTextSize(longer.c_str()).x > most) {
-            lines += line + "\n";
-            line = part;
-        } else {
-            line = longer;
-        }
-        start = std::min(tile.label.find_first_not_of(' ', end), tile.label.size());
-    }
-    return lines + line;
-}
+std::string label_lines(const CompareTile& tile) { return text_in_lines(tile.label, label_wrap(tile)); }
 
 /// In the lower left or right corner of the visible part of a tile.
 Rect label_place(const CompareTile& tile) {
