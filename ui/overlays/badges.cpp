@@ -24,21 +24,23 @@ public:
 
     void add(const std::string& text, ImU32 color) {
         gui_memory().badges += text + "; ";
-        const float width = ImGui::CalcTextSize(text.c_str()).x + em(0.9f);
-        if (!find_room(width)) return;
+        const std::string lines = text_in_lines(text, right_ - left_ - em(0.9f));
+        const ImVec2 size = ImGui::CalcTextSize(lines.c_str());
+        const float width = size.x + em(0.9f);
+        if (!find_room(width, size.y)) return;
         if (corner_.x + width > right_) gui_memory().cut += text + "; ";
         list_.AddRectFilled(corner_, {corner_.x + width, bottom()}, colors::kBadge, em(0.2f));
-        list_.AddText({corner_.x + em(0.45f), corner_.y + em(0.2f)}, color, text.c_str());
+        list_.AddText({corner_.x + em(0.45f), corner_.y + em(0.2f)}, color, lines.c_str());
         corner_.x += width + em(0.35f);
     }
 
-    float bottom() const { return corner_.y + ImGui::GetTextLineHeight() + em(0.4f); }
+    float bottom() const { return corner_.y + height_ + em(0.4f); }
 
     /// The colors of a heat map from its lowest to its highest value, and their meaning.
     void add_heat_legend(const std::string& text) {
         const float step = em(0.5f);
         const float width = step * static_cast<float>(kHeatSteps);
-        if (!find_room(width)) return;
+        if (!find_room(width, ImGui::GetTextLineHeight())) return;
         for (int i = 0; i < kHeatSteps; ++i) {
             const float x = corner_.x + step * static_cast<float>(i);
             const ImU32 low = heat_color_at(i);
@@ -51,8 +53,9 @@ public:
 
 private:
     /// In the next row where this one ends; false above the card or the names of compared pictures.
-    bool find_room(float width) {
+    bool find_room(float width, float height) {
         if (corner_.x + width > right_ && corner_.x > left_) corner_ = {left_, bottom() + em(0.3f)};
+        if (corner_.x == left_) height_ = height;
         return bottom() <= end_;
     }
 
@@ -66,6 +69,7 @@ private:
     float left_;
     float right_;
     float end_;
+    float height_ = ImGui::GetTextLineHeight();  ///< of the text in the present row: long ones have one of their own
 };
 
 bool is_given_up(const PublishedFrame& frame) {

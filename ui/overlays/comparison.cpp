@@ -14,16 +14,14 @@ constexpr float kHandlePixels = 12.0f;
 
 ImVec2 label_padding() { return {em(0.45f), em(0.2f)}; }
 
-float label_wrap(const CompareTile& tile) {
-    return std::max(tile.clip.width - em(1.2f) - 2.0f * label_padding().x, em(4.0f));
+std::string label_lines(const CompareTile& tile) {
+    return text_in_lines(tile.label, std::max(tile.clip.width - em(1.2f) - 2.0f * label_padding().x, em(4.0f)));
 }
-
-std::string label_lines(const CompareTile& tile) { return text_in_lines(tile.label, label_wrap(tile)); }
 
 /// In the lower left or right corner of the visible part of a tile.
 Rect label_place(const CompareTile& tile) {
     const ImVec2 pad = label_padding();
-    const ImVec2 size = ImGui::CalcTextSize(label_lines(tile).c_str(), nullptr, false, label_wrap(tile));
+    const ImVec2 size = ImGui::CalcTextSize(label_lines(tile).c_str());
     const Rect& part = tile.clip;
     const float width = size.x + 2.0f * pad.x;
     const float height = size.y + 2.0f * pad.y;
@@ -37,8 +35,7 @@ void draw_label(ImDrawList& list, const CompareTile& tile) {
     const Rect place = label_place(tile);
     list.PushClipRect({part.x, part.y}, {part.x + part.width, part.y + part.height}, true);
     list.AddRectFilled({place.x, place.y}, {place.x + place.width, place.y + place.height}, colors::kBadge, em(0.2f));
-    list.AddText(ImGui::GetFont(), ImGui::GetFontSize(), {place.x + pad.x, place.y + pad.y},
-                 to_text_color(tile.color), label_lines(tile).c_str(), nullptr, label_wrap(tile));
+    list.AddText({place.x + pad.x, place.y + pad.y}, to_text_color(tile.color), label_lines(tile).c_str());
     list.PopClipRect();
 }
 
