@@ -35,11 +35,10 @@ bool menu_item(const std::string& label, const std::string& keys, bool is_marked
 
 void draw_views_menu(ViewerModel& model) {
     ImGui::Separator();
-    for (const ViewInfo& view : all_views()) {
-        const std::string label(view.label);
-        if (menu_item(label, "", view.id == model.render().settings().view, true, "view: " + label))
+    for (const ViewInfo& view : all_views())
+        if (menu_item(std::string(view.label), "", view.id == model.render().settings().view, true,
+                      fmt::format("view: {}", view.label)))
             model.render().set_view(view.id);
-    }
 }
 
 /// Of undo and redo what they would do; empty if there is nothing to do. Other actions are what they are.

@@ -84,8 +84,7 @@ void draw_learning_buttons(ViewerModel& model) {
         model.render().control_learning(is_frozen ? LearningControl::Continue : LearningControl::Freeze);
     note_place("freeze");
     tooltip("Freezes the learned field of all volumes as it is after the present pass; the picture goes on. Or lets "
-            "every pass "
-            "train it again.");
+            "every pass train it again.");
     ImGui::SameLine();
     ImGui::BeginDisabled(!is_frozen);
     if (ImGui::SmallButton("step")) model.render().control_learning(LearningControl::Step);
