@@ -75,10 +75,6 @@ std::vector<std::string> disc_lines(const VolumeInspection& volume, const Inspec
     return lines;
 }
 
-std::string interval_text(const Interval& interval) {
-    return fmt::format("{:.3g} ({:.3g} to {:.3g})", interval.value, interval.low, interval.high);
-}
-
 }  // namespace
 
 std::vector<std::string> truth_lines(const LightReport& truth) {

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """Makes the pictures of the documents with the program, as PNGs of 256 colors.
 
-Usage: make_pictures.py PROGRAM [NAME...]   NAME is window, tour, error-map, door, effects, cells, learning or scenes; default: all
+Usage: make_pictures.py PROGRAM [NAME...]   NAME is tour, error-map, door, effects, cells, learning or scenes; default: all
 
-For the first three the viewer plays pictures/NAME.script on SDL's dummy driver, so no display is needed; every `shot` of a script becomes
+For the first two the viewer plays pictures/NAME.script on SDL's dummy driver, so no display is needed; every `shot` of a script becomes
 a picture. `door` and `effects` are renderings, side by side where they are several. `cells` is what a volume has learned after more and
 more passes, at its right the truth. `learning` is animated, and wants a quiet machine: each of its frames is `default` and
 `reinforcement` after the same time, and the disc of what a volume has learned by then. `scenes` are the small pictures of all scenes that come with the program, beside their files, for the
@@ -24,7 +24,6 @@ from pathlib import Path
 DOCS = Path(__file__).resolve().parent
 # Arguments of the viewer, and the folder of its pictures.
 PICTURES = {
-    "window": (["cornell", "--nee", "off", "--size", "384x384", "--window", "1440x900"], DOCS / "images"),
     "tour": (["cornell", "--nee", "off", "--size", "128x128", "--window", "1280x720"], DOCS / "images" / "tour"),
     "error-map": (["cornell", "--nee", "off", "--size", "384x384", "--window", "1280x720"], DOCS / "images"),
 }
@@ -95,8 +94,11 @@ def widest(box):
 
 
 def palette_of(counts):
-    """Colors of the palette, and the index of each color in it. [Heckbert 1982, median cut]"""
-    boxes = [list(counts.items())]
+    """Colors of the palette, and the index of each color in it. The most frequent ones, as of panels, are kept; others share the rest.
+    [Heckbert 1982, median cut]"""
+    entries = counts.most_common()
+    kept, rest = entries[:COLORS // 4], entries[COLORS // 4:]
+    boxes = [[entry] for entry in kept] + ([rest] if rest else [])
     while len(boxes) < COLORS:
         box = max(boxes, key=lambda b: widest(b)[1])
         if len(box) == 1:

@@ -375,10 +375,8 @@ void Viewer::remember() {
 void Viewer::show() {
     SDL_SetRenderDrawColor(display_.renderer(), 12, 13, 16, 255);
     SDL_RenderClear(display_.renderer());
-    const bool is_compared = !plan_.tiles.empty();
-    if (!is_compared) image_layer_.draw(model_, image_, layout_.view);
-    compare_layer_.draw(plan_, model_.display().settings(),
-                        is_compared ? image_layer_.overlay(model_) : CellOverlay{});
+    if (plan_.tiles.empty()) image_layer_.draw(model_, image_, layout_.view);
+    compare_layer_.draw(plan_, model_.display().settings(), image_layer_.overlay(model_));
     gui_.draw();
     if (magnifier_) {  // over the overlays, whose lines are not magnified
         if (plan_.tiles.empty()) image_layer_.magnify(*magnifier_);

@@ -187,7 +187,7 @@ std::string interval_text(const Interval& interval, std::size_t runs) {
     if (!std::isfinite(interval.value)) return "unknown";
     if (runs < kFewestRuns || !std::isfinite(interval.low) || !std::isfinite(interval.high))
         return fmt::format("{:.3g}", interval.value);
-    return fmt::format("{:.3g} ({:.3g} to {:.3g})", interval.value, interval.low, interval.high);
+    return pl::interval_text(interval);
 }
 
 std::vector<std::string> method_order(const Json& plan) { return plan.at("methods").get<std::vector<std::string>>(); }

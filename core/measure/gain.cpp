@@ -65,7 +65,7 @@ std::string net_text(const Gain& gain) {
 }
 
 /// Of a decided ratio as the factor that the sentence names, which is at least 1.
-std::string interval_text(const Interval& net) {
+std::string factor_bounds_text(const Interval& net) {
     const bool inverted = verdict_of(net) == Verdict::Slower;
     const double low = inverted ? 1.0 / net.high : net.low;
     const double high = inverted ? 1.0 / net.low : net.high;
@@ -127,7 +127,7 @@ std::string headline(const Gain& gain, const std::string& base_name) {
     else if (gain.runs < kFewestRuns)
         text += fmt::format(" (only {} runs: no interval)", gain.runs);
     else
-        text += fmt::format(" (95 %: {})", interval_text(gain.net));
+        text += fmt::format(" (95 %: {})", factor_bounds_text(gain.net));
     if (gain.ahead_from_seconds)
         text += fmt::format(", ahead from {:.2g} s on", *gain.ahead_from_seconds);
     else if (gain.compared_until_seconds > 0.0)

@@ -7,6 +7,8 @@
 #include <numeric>
 #include <vector>
 
+#include <fmt/format.h>
+
 namespace pl {
 namespace {
 
@@ -78,6 +80,10 @@ Interval exponential(const Interval& logs) { return {std::exp(logs.value), std::
 double two_sided_quantile(double freedom) { return student_quantile(0.5 + 0.5 * kConfidence, freedom); }
 
 }  // namespace
+
+std::string interval_text(const Interval& interval) {
+    return fmt::format("{:.3g} ({:.3g} to {:.3g})", interval.value, interval.low, interval.high);
+}
 
 double student_quantile(double probability, double freedom) {
     const double tail = std::min(probability, 1.0 - probability);

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <span>
+#include <string>
 
 namespace pl {
 
@@ -19,6 +20,9 @@ struct Interval {
 
     bool contains(double truth) const { return low <= truth && truth <= high; }
 };
+
+/// "1.5 (1.2 to 1.8)".
+std::string interval_text(const Interval& interval);
 
 inline constexpr double kConfidence = 0.95;
 

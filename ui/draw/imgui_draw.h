@@ -68,6 +68,7 @@ struct GuiMemory {
     std::string badges{};                        ///< over the picture in the last frame, for scripts
     /// Rectangles of the controls in the last frame by their labels: scripts point at them.
     std::map<std::string, Rect, std::less<>> places;
+    std::string cut{};    ///< controls of the last frame that reach beyond the right edge of their panel
     std::string moved{};  ///< controls that have left the place they had when a script asked them to keep it
 };
 

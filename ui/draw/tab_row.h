@@ -10,6 +10,7 @@ namespace pl::ui {
 class TabRow {
 public:
     explicit TabRow(const char* id);
+    bool shows(const char* title) const { return chosen_ == ImGui::GetID(title); }
     /// Brings a tab to the front.
     void choose(const char* title) { chosen_ = ImGui::GetID(title); }
     /// The next tab; true if it is in front: then draw its content after end().

@@ -1,6 +1,7 @@
 #include "ui/draw/value_text.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -45,9 +46,12 @@ std::string broken_at_spaces(std::string_view text, float width,
     const float space = width_of(" ");
     float used = 0.0f;
     for (std::size_t start = 0; start < text.size();) {
-        const std::size_t end = std::min(text.find_first_of(" \n", start), text.size());
+        std::size_t end = std::min(text.find_first_of(" \n", start), text.size());
+        if (end > start && end < text.size() && text[end] == ' ' &&
+            std::isdigit(static_cast<unsigned char>(text[end - 1])))
+            end = std::min(text.find_first_of(" \n", end + 1), text.size());
         const float word = width_of(text.substr(start, end - start));
-        if (used > 0.0f && used + word > width) {
+        if (used > 0.0f && end > start && used + word > width) {
             lines[start - 1] = '\n';
             used = 0.0f;
         }

@@ -27,8 +27,8 @@ const char* light_samples_text(bool on);
 /// "1 pass", "3 passes".
 std::string passes_text(std::uint64_t count);
 
-/// Lines that break at spaces alone: Dear ImGui also breaks after points and commas, within numbers. A word that is wider than a line
-/// stays whole.
+/// Lines that break at spaces alone: Dear ImGui also breaks after points and commas, within numbers. A number keeps its unit, the
+/// next word, and a word that is wider than a line stays whole.
 std::string broken_at_spaces(std::string_view text, float width,
                              const std::function<float(std::string_view)>& width_of);
 

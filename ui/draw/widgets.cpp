@@ -171,6 +171,7 @@ void note_place(const char* label) {
     if (!ImGui::IsItemVisible()) return;
     const ImVec2 low = ImGui::GetItemRectMin();
     const ImVec2 high = ImGui::GetItemRectMax();
+    if (high.x > ImGui::GetWindowPos().x + ImGui::GetWindowWidth()) gui_memory().cut += fmt::format("{}; ", label);
     note_place(label, {low.x, low.y, high.x - low.x, high.y - low.y});
 }
 

@@ -98,8 +98,8 @@ void InputRouter::button(const SDL_MouseButtonEvent& event, ViewerModel& model, 
     const bool was_captured = gesture_.captured();
     if (event.type == SDL_MOUSEBUTTONDOWN) {
         pointer_ = position;
-        gesture_.press(*which, position, context.seconds,
-                       context.view.contains(position) && !context.panels_want_pointer, drag_of(*which));
+        gesture_.press(*which, position, context.view.contains(position) && !context.panels_want_pointer,
+                       drag_of(*which));
     } else if (const auto clicked = gesture_.release(*which, context.seconds)) {
         click(*clicked, model, context);
     }

@@ -25,14 +25,12 @@ enum class Drag { Look, Orbit, PanCamera, PanPicture };
 class PointerGesture {
 public:
     static constexpr float kClickPixels = 4.0f;
-    static constexpr double kClickSeconds = 0.25;
-
     static constexpr double kDoubleClickSeconds = 0.4;  ///< between the clicks of a double click
 
     /// A button goes down, over the image or not. A second button does not interrupt the first.
-    void press(PointerButton button, Vec2f position, double seconds, bool over_image, Drag drag = Drag::Look) {
+    void press(PointerButton button, Vec2f position, bool over_image, Drag drag = Drag::Look) {
         if (active_ || !over_image) return;
-        active_ = Press{button, position, seconds, button == PointerButton::Right, drag};
+        active_ = Press{button, position, button == PointerButton::Right, drag};
     }
 
     /// Meaning of the drag under way.
@@ -48,13 +46,13 @@ public:
         return from_press;  // includes the pixels below the threshold
     }
 
-    /// The button goes up. Returns the position of a click: a short left press without movement.
+    /// The button goes up. Returns the position of a click: a left press without movement, however long it seems to a window that was
+    /// busy meanwhile.
     std::optional<Vec2f> release(PointerButton button, double seconds) {
         if (!active_ || active_->button != button) return std::nullopt;
         const Press press = *active_;
         active_.reset();
-        if (press.turning || button != PointerButton::Left || seconds - press.seconds > kClickSeconds)
-            return std::nullopt;
+        if (press.turning || button != PointerButton::Left) return std::nullopt;
         const bool is_near = last_click_ && glm::length(press.position - last_click_->position) < kClickPixels;
         is_double_ = is_near && seconds - last_click_->seconds < kDoubleClickSeconds;
         last_click_ = Click{press.position, seconds};
@@ -74,7 +72,6 @@ private:
     struct Press {
         PointerButton button;
         Vec2f position;
-        double seconds;
         bool turning;
         Drag drag;
     };

@@ -19,41 +19,46 @@ namespace {
 /// Small labels in a row, from the left.
 class BadgeRow {
 public:
-    BadgeRow(ImVec2 corner, float right)
-        : list_(*ImGui::GetBackgroundDrawList()), corner_(corner), left_(corner.x), right_(right) {}
+    BadgeRow(ImVec2 corner, float right, float end)
+        : list_(*ImGui::GetBackgroundDrawList()), corner_(corner), left_(corner.x), right_(right), end_(end) {}
 
     void add(const std::string& text, ImU32 color) {
         gui_memory().badges += text + "; ";
-        const ImVec2 pad{em(0.45f), em(0.2f)};
-        const ImVec2 size = ImGui::CalcTextSize(text.c_str());
-        const float width = size.x + 2.0f * pad.x;
-        const float height = size.y + 2.0f * pad.y;
-        if (corner_.x + width > right_ && corner_.x > left_) corner_ = {left_, corner_.y + height + em(0.3f)};
-        if (corner_.y + height > gui_memory().low_card_start) return;  // no room above the card
-        list_.AddRectFilled(corner_, {corner_.x + width, corner_.y + height}, colors::kBadge, em(0.2f));
-        list_.AddText({corner_.x + pad.x, corner_.y + pad.y}, color, text.c_str());
+        const std::string lines = text_in_lines(text, right_ - left_ - em(0.9f));
+        const ImVec2 size = ImGui::CalcTextSize(lines.c_str());
+        const float width = size.x + em(0.9f);
+        if (!find_room(width, size.y)) return;
+        if (corner_.x + width > right_) gui_memory().cut += text + "; ";
+        list_.AddRectFilled(corner_, {corner_.x + width, bottom()}, colors::kBadge, em(0.2f));
+        list_.AddText({corner_.x + em(0.45f), corner_.y + em(0.2f)}, color, lines.c_str());
         corner_.x += width + em(0.35f);
     }
 
-    float bottom() const { return corner_.y + ImGui::GetTextLineHeight() + 2.0f * em(0.2f); }
+    float bottom() const { return corner_.y + height_ + em(0.4f); }
 
     /// The colors of a heat map from its lowest to its highest value, and their meaning.
     void add_heat_legend(const std::string& text) {
-        const float height = ImGui::GetTextLineHeight() + 2.0f * em(0.2f);
         const float step = em(0.5f);
         const float width = step * static_cast<float>(kHeatSteps);
-        if (corner_.x + width > right_ && corner_.x > left_) corner_ = {left_, corner_.y + height + em(0.3f)};
+        if (!find_room(width, ImGui::GetTextLineHeight())) return;
         for (int i = 0; i < kHeatSteps; ++i) {
             const float x = corner_.x + step * static_cast<float>(i);
             const ImU32 low = heat_color_at(i);
             const ImU32 high = heat_color_at(i + 1);
-            list_.AddRectFilledMultiColor({x, corner_.y}, {x + step, corner_.y + height}, low, high, high, low);
+            list_.AddRectFilledMultiColor({x, corner_.y}, {x + step, bottom()}, low, high, high, low);
         }
         corner_.x += width + em(0.1f);
         add(text, colors::kText);
     }
 
 private:
+    /// In the next row where this one ends; false above the card or the names of compared pictures.
+    bool find_room(float width, float height) {
+        if (corner_.x + width > right_ && corner_.x > left_) corner_ = {left_, bottom() + em(0.3f)};
+        if (corner_.x == left_) height_ = height;
+        return bottom() <= end_;
+    }
+
     static ImU32 heat_color_at(int step) {
         const ByteColor color = heat_color(static_cast<float>(step) / static_cast<float>(kHeatSteps));
         return IM_COL32(color.r, color.g, color.b, 255);
@@ -63,6 +68,8 @@ private:
     ImVec2 corner_;
     float left_;
     float right_;
+    float end_;
+    float height_ = ImGui::GetTextLineHeight();  ///< of the text in the present row: long ones have one of their own
 };
 
 bool is_given_up(const PublishedFrame& frame) {
@@ -104,13 +111,14 @@ void add_picture_badges(BadgeRow& row, const ViewerModel& model, const Published
     const Snapshot& snapshot = frame.snapshot;
     const View view = snapshot.slot.view;
     const std::string back_end = back_end_label(frame.backend.name);
-    if (view == View::Beauty || view == View::RadianceMap)
-        row.add(fmt::format("{}, {}  {}  {} spp  {}", method_text(frame.settings, snapshot.slot.method),
-                            light_samples_text(frame.settings.next_event), back_end, snapshot.passes,
-                            short_seconds(work_seconds(snapshot.clocks))),
-                colors::kText);
-    else
-        row.add(fmt::format("{}  {}  {} spp", info_of(view).label, back_end, snapshot.passes), colors::kText);
+    const bool shows_light = view == View::Beauty || view == View::RadianceMap;
+    row.add(shows_light ? fmt::format("{}, {}", method_text(frame.settings, snapshot.slot.method),
+                                      light_samples_text(frame.settings.next_event))
+                        : std::string(info_of(view).label),
+            colors::kText);
+    row.add(fmt::format("{}  {} spp{}", back_end, snapshot.passes,
+                        shows_light ? "  " + short_seconds(work_seconds(snapshot.clocks)) : ""),
+            colors::kText);
     if (frame.preview == Preview::LightSamples) row.add("while moving: preview with light samples", colors::kWarning);
     if (frame.preview == Preview::RadianceMap)
         row.add("while moving: preview by the learned radiance map", colors::kWarning);
@@ -250,7 +258,9 @@ void draw_badges(ViewerModel& model, const Layout& layout, const ComparePlan& pl
     // Below a card, which has its place: badges come, go and wrap while pictures render.
     gui_memory().badges.clear();
     const float top = std::max(gui_memory().top_card_end, view.y) + em(0.6f);
-    BadgeRow row({view.x + em(0.6f), top}, view.x + view.width - em(0.6f));
+    const float names = plan.tiles.empty() ? gui_memory().low_card_start : top_of_names(plan, {});
+    BadgeRow row({view.x + em(0.6f), top}, view.x + view.width - em(0.6f),
+                 std::min(names, gui_memory().low_card_start));
     // Compared pictures have labels of their own.
     if (model.frame() != nullptr && plan.tiles.empty()) add_picture_badges(row, model, *model.frame());
     if (model.frame() != nullptr) add_guiding_badge(row, *model.frame(), whose(model, 0));

@@ -14,34 +14,14 @@ constexpr float kHandlePixels = 12.0f;
 
 ImVec2 label_padding() { return {em(0.45f), em(0.2f)}; }
 
-float label_wrap(const CompareTile& tile) {
-    return std::max(tile.clip.width - em(1.2f) - 2.0f * label_padding().x, em(4.0f));
-}
-
-/// The label in lines that fit. They break between its parts, which two spaces divide: a number is never cut at its point.
 std::string label_lines(const CompareTile& tile) {
-    const float most = label_wrap(tile);
-    std::string lines;
-    std::string line;
-    for (std::size_t start = 0; start < tile.label.size();) {
-        const std::size_t end = std::min(tile.label.find("  ", start), tile.label.size());
-        const std::string part = tile.label.substr(start, end - start);
-        const std::string longer = line.empty() ? part : line + "  " + part;
-        if (!line.empty() && ImGui::CalcTextSize(longer.c_str()).x > most) {
-            lines += line + "\n";
-            line = part;
-        } else {
-            line = longer;
-        }
-        start = std::min(tile.label.find_first_not_of(' ', end), tile.label.size());
-    }
-    return lines + line;
+    return text_in_lines(tile.label, std::max(tile.clip.width - em(1.2f) - 2.0f * label_padding().x, em(4.0f)));
 }
 
 /// In the lower left or right corner of the visible part of a tile.
 Rect label_place(const CompareTile& tile) {
     const ImVec2 pad = label_padding();
-    const ImVec2 size = ImGui::CalcTextSize(label_lines(tile).c_str(), nullptr, false, label_wrap(tile));
+    const ImVec2 size = ImGui::CalcTextSize(label_lines(tile).c_str());
     const Rect& part = tile.clip;
     const float width = size.x + 2.0f * pad.x;
     const float height = size.y + 2.0f * pad.y;
@@ -55,8 +35,7 @@ void draw_label(ImDrawList& list, const CompareTile& tile) {
     const Rect place = label_place(tile);
     list.PushClipRect({part.x, part.y}, {part.x + part.width, part.y + part.height}, true);
     list.AddRectFilled({place.x, place.y}, {place.x + place.width, place.y + place.height}, colors::kBadge, em(0.2f));
-    list.AddText(ImGui::GetFont(), ImGui::GetFontSize(), {place.x + pad.x, place.y + pad.y},
-                 to_text_color(tile.color), label_lines(tile).c_str(), nullptr, label_wrap(tile));
+    list.AddText({place.x + pad.x, place.y + pad.y}, to_text_color(tile.color), label_lines(tile).c_str());
     list.PopClipRect();
 }
 
@@ -80,8 +59,8 @@ void draw_handle(ViewerModel& model, const CompareTile& tile, float x) {
     ImGui::PopStyleVar(2);
     if (held) model.comparison().set_split((ImGui::GetIO().MousePos.x - place.x) / place.width);
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
-    // In the part that no card covers.
-    const float low = std::max(seen.y, gui_memory().top_card_end) + em(0.6f);
+    // In the part that no card covers, and no row of badges below it.
+    const float low = std::max(seen.y, gui_memory().top_card_end) + em(2.8f);
     const float high = std::min(seen.y + seen.height, gui_memory().low_card_start) - em(0.6f);
     const float middle = std::clamp(seen.y + 0.5f * seen.height, low, std::max(low, high));
     note_place("split line", {x - em(0.5f), middle - em(0.5f), em(1.0f), em(1.0f)});

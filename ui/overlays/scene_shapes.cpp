@@ -164,6 +164,7 @@ void draw_hemisphere(ViewerModel& model, const Rect& image) {
     for (const ShownVolume& shown : volumes)
         if (shown.is_selected)
             draw_hovered_ray(out, frame, projection, *shown.volume, model.selection().hovered_cell());
+    note_place("lobes", image);
 }
 
 void draw_flowers(ViewerModel& model, const Rect& image) {

@@ -24,14 +24,21 @@ void draw_recent_menu(ViewerModel& model) {
     ImGui::EndMenu();
 }
 
+/// True if it was chosen. Scripts find it by its name, and by another one while it is marked.
+bool menu_item(const std::string& label, const std::string& keys, bool is_marked, bool is_enabled,
+               const std::string& name) {
+    const bool is_chosen = ImGui::MenuItem(label.c_str(), keys.c_str(), is_marked, is_enabled);
+    note_place(name.c_str());
+    if (is_marked) note_place(("marked: " + name).c_str());
+    return is_chosen;
+}
+
 void draw_views_menu(ViewerModel& model) {
     ImGui::Separator();
-    for (const ViewInfo& view : all_views()) {
-        const std::string label(view.label);
-        if (ImGui::MenuItem(label.c_str(), nullptr, view.id == model.render().settings().view))
+    for (const ViewInfo& view : all_views())
+        if (menu_item(std::string(view.label), "", view.id == model.render().settings().view, true,
+                      fmt::format("view: {}", view.label)))
             model.render().set_view(view.id);
-        note_place(("view: " + label).c_str());
-    }
 }
 
 /// Of undo and redo what they would do; empty if there is nothing to do. Other actions are what they are.
@@ -55,9 +62,7 @@ void draw_group(ViewerModel& model, ActionGroup group) {
         std::string label = text.empty() ? action.text : text;
         label[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(label[0])));
         if (action.id == ActionId::Quit) ImGui::Separator();
-        if (ImGui::MenuItem(label.c_str(), action.keys.c_str(), is_on(model, action), !text.empty()))
-            perform(model, action);
-        note_place(action.text.c_str());
+        if (menu_item(label, action.keys, is_on(model, action), !text.empty(), action.text)) perform(model, action);
         if (action.id == ActionId::Open) draw_recent_menu(model);
     }
     if (group == ActionGroup::View) draw_views_menu(model);

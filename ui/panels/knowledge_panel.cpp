@@ -144,8 +144,8 @@ void draw_knowledge_panel(ViewerModel& model, const Layout& layout, const std::o
     const bool research = is_research(model);
     const bool traces = model.paths().is_shown();
     TabRow tabs("tabs");
-    // A click shows the paths of the pixel if they are on, or else the volume.
-    if (model.selection().take_new_volume()) tabs.choose(traces ? "Paths" : "Volume");
+    // A click shows the material while materials are looked at, else the paths of the pixel if they are on, or else the volume.
+    if (model.selection().take_new_volume() && !tabs.shows("Material")) tabs.choose(traces ? "Paths" : "Volume");
     const bool volume = tabs.add("Volume");
     const bool paths = (research || traces) && tabs.add("Paths");
     const bool material = tabs.add("Material");

@@ -15,12 +15,8 @@ namespace {
 
 void draw_choices(CellDisplay& display) {
     choice_row("quantity", "Of a cell.", &display.quantity, em(8.0f));
-    ImGui::SameLine();
+    same_line_for(em(13.0f));
     range_controls(display.range);
-}
-
-std::string interval_text(const Interval& interval) {
-    return fmt::format("{:.3g} ({:.3g} to {:.3g})", interval.value, interval.low, interval.high);
 }
 
 void draw_figures(const LightReport& report) {
@@ -88,8 +84,7 @@ void draw_learning_buttons(ViewerModel& model) {
         model.render().control_learning(is_frozen ? LearningControl::Continue : LearningControl::Freeze);
     note_place("freeze");
     tooltip("Freezes the learned field of all volumes as it is after the present pass; the picture goes on. Or lets "
-            "every pass "
-            "train it again.");
+            "every pass train it again.");
     ImGui::SameLine();
     ImGui::BeginDisabled(!is_frozen);
     if (ImGui::SmallButton("step")) model.render().control_learning(LearningControl::Step);
@@ -100,7 +95,7 @@ void draw_learning_buttons(ViewerModel& model) {
     if (ImGui::SmallButton("forget volume")) model.render().forget_volume(model.selection().volume());
     note_place("forget volume");
     tooltip("This volume begins anew, as if it had never been trained; all others keep what they learned.");
-    ImGui::SameLine();
+    same_line_for(em(8.5f));
 }
 
 }  // namespace

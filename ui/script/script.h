@@ -9,7 +9,7 @@
 // (1, 1) its bottom right one. `aim_plot` points at the curves of the accuracy panel in the same way, and beyond (1, 1)
 // at the numbers of its axes. `aim_at` points at the control with this label: also a tab or a button. OP is one of
 // == != < <= > >= ~ (contains). `monkey` plays random input. From `keep_places` on the value `moved` collects the controls that leave
-// their place. The frame count stands still while a script waits, and meanwhile.
+// their place; `cut` has those that reach beyond the right edge of their panel. The frame count stands still while a script waits, and meanwhile.
 // A wait that has not come true after N further passes of any picture, 20000 unless given otherwise, ends the script as a failed
 // expectation does. Passes, not seconds: no verdict depends on the speed of the machine.
 #pragma once

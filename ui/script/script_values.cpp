@@ -161,8 +161,10 @@ constexpr std::array kValues{
     Value{"tooltip_place", tooltip_place},
     Value{"panels", [](const ViewerModel& m) { return word(m.window().panels.shown); }},
     Value{"badges", [](const ViewerModel&) { return gui_memory().badges; }},
+    Value{"cut", [](const ViewerModel&) { return gui_memory().cut.empty() ? "none" : gui_memory().cut; }},
     Value{"moved", [](const ViewerModel&) { return gui_memory().moved.empty() ? "none" : gui_memory().moved; }},
     Value{"theme", [](const ViewerModel& m) { return std::string(pl::name_of(m.window().theme)); }},
+    Value{"ground", [](const ViewerModel&) { return fmt::format("{:06x}", colors::kGround & 0xffffffu); }},
     Value{"keyed_panel",
           [](const ViewerModel& m) {
               const auto& panel = m.window().keyed_panel;

@@ -62,6 +62,7 @@ void Gui::frame(double delta_seconds, const std::function<void()>& build) {
     const bool moves = io.MouseDelta.x != 0.0f || io.MouseDelta.y != 0.0f;
     memory_.pointer_rest_seconds = moves ? 0.0f : memory_.pointer_rest_seconds + io.DeltaTime;
     memory_.places.clear();
+    memory_.cut.clear();
     textures_.drop_unused();
     build();
     ImGui::Render();

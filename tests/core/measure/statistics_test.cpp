@@ -62,6 +62,7 @@ TEST_CASE("quantiles of Student's t agree with tables") {
 TEST_CASE("an interval by hand") {
     const std::array values{1.0, 2.0, 3.0};
     const Interval interval = mean_interval(values);
+    CHECK(interval_text({1.5, 1.25, 1.8125}) == "1.5 (1.25 to 1.81)");
     CHECK(interval.value == 2.0);
     CHECK_THAT(interval.high - 2.0, WithinRel(4.30265273 / std::sqrt(3.0), 1e-7));
     CHECK_THAT(2.0 - interval.low, WithinRel(4.30265273 / std::sqrt(3.0), 1e-7));

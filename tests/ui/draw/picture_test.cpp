@@ -111,6 +111,27 @@ TEST_CASE("Picture: cells of another size are not laid over") {
     CHECK(out == std::vector<std::uint32_t>(6, gray_code(0)));
 }
 
+TEST_CASE("Picture: the colors of a heat map run from the lowest to the highest value of the range, linear or "
+          "logarithmic") {
+    Snapshot snapshot;
+    snapshot.width = 2;
+    snapshot.height = 1;
+    snapshot.pixels = {Vec3f{0.1f}, Vec3f{1.0f}};
+    const auto colors = [&](const ValueRange& range) {
+        std::vector<std::uint32_t> pixels(2);
+        write_heat(snapshot, range, pixels.data(), 2);
+        return pixels;
+    };
+    const auto argb = [](float position) {
+        const ByteColor c = heat_color(position);
+        return 0xff000000u | static_cast<std::uint32_t>(c.r) << 16 | static_cast<std::uint32_t>(c.g) << 8 | c.b;
+    };
+    CHECK(colors({.low = 0.0f, .high = 1.0f}) == std::vector{argb(0.1f), argb(1.0f)});
+    CHECK(colors({.low = 0.1f, .high = 1.0f}) == std::vector{argb(0.0f), argb(1.0f)});
+    CHECK(colors({.scale = ColorScale::Logarithmic, .low = 0.01f, .high = 1.0f}) ==
+          std::vector{argb(0.5f), argb(1.0f)});
+}
+
 TEST_CASE("Picture: exposure and curve are for radiance only") {
     const DisplaySettings asked{.exposure_ev = 2.0f, .curve = ToneCurve::Aces};
     for (const View view : {View::Beauty, View::Direct, View::RadianceMap})

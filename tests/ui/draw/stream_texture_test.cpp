@@ -1,31 +1,13 @@
 // Meshes as textures: drawn once, opaque where there are triangles, at their place in the window.
 #include "ui/draw/stream_texture.h"
 
-#include <array>
-
-#include <SDL.h>
-
 #include "tests/support/catch.hpp"
+#include "tests/ui/surface_bench.h"
 
+using namespace pl::test;
 using namespace pl::ui;
 
 namespace {
-
-constexpr int kWindow = 40;
-
-/// A window in memory.
-struct SurfaceBench {
-    std::array<std::uint32_t, static_cast<std::size_t>(kWindow) * kWindow> pixels{};
-    SDL_Surface* surface = SDL_CreateRGBSurfaceWithFormatFrom(pixels.data(), kWindow, kWindow, 32, 4 * kWindow,
-                                                              SDL_PIXELFORMAT_ARGB8888);
-    SDL_Renderer* renderer = SDL_CreateSoftwareRenderer(surface);
-
-    ~SurfaceBench() {
-        SDL_DestroyRenderer(renderer);
-        SDL_FreeSurface(surface);
-    }
-    std::uint32_t pixel(int x, int y) const { return pixels[static_cast<std::size_t>(y * kWindow + x)]; }
-};
 
 /// The lower left half of a square from (10, 10) to (30, 30).
 std::shared_ptr<const ScreenMesh> triangle() {

@@ -40,7 +40,7 @@ TEST_CASE("Words: one is not many") {
     CHECK(light_samples_text(false) == std::string("light samples off"));
 }
 
-TEST_CASE("Lines break at spaces, never within a number") {
+TEST_CASE("Lines break at spaces, never within a number or before its unit") {
     const auto letters = [](std::string_view part) { return static_cast<float>(part.size()); };
     const auto broken = [&](std::string_view text, float width) { return broken_at_spaces(text, width, letters); };
     CHECK(broken("undecided (95 %: 0.67 to 8.8)", 19.0f) == "undecided (95 %:\n0.67 to 8.8)");
@@ -48,6 +48,8 @@ TEST_CASE("Lines break at spaces, never within a number") {
     CHECK(broken("2.4 to 2.6", 9.0f) == "2.4 to\n2.6");
     CHECK(broken("one\ntwo three", 7.0f) == "one\ntwo\nthree");
     CHECK(broken("a word-that-is-long b", 6.0f) == "a\nword-that-is-long\nb");
+    CHECK(broken("takes 2.5 s more", 9.0f) == "takes\n2.5 s\nmore");
+    CHECK(broken("Default CPU  22 spp  4.18 s", 15.0f) == "Default CPU \n22 spp  4.18 s");
     CHECK(broken("", 5.0f).empty());
 }
 

@@ -94,6 +94,17 @@ TEST_CASE("Guided tour: the camera of the step about another view comes back wit
     CHECK(model.camera().camera().eye == eye);
 }
 
+TEST_CASE("Guided tour: the last step is done by both gains, and not by the key for light samples") {
+    FileBench bench;
+    ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
+    REQUIRE(begin(bench, model));
+    for (std::size_t i = 1; i < tour_steps().size(); ++i) model.tour().next_step(model);
+    model.render().set_next_event(true);
+    for (int i = 0; i < 3; ++i) model.update(bench.clock += GuidedTour::kRestSeconds);
+    CHECK_FALSE(model.tour().is_seen());
+    CHECK_THAT(seen_text(model, model.tour().step()), contains("not measured"));
+}
+
 TEST_CASE("Guided tour: left and continued, gone through to the end, and begun again") {
     FileBench bench;
     ViewerModel model(bench.options, small_scene(), bench.options.settings, 0.0);
