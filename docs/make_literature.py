@@ -111,7 +111,7 @@ def losses(benches):
         net = c["net"]
         if net[0] is not None and net[0] >= 1.0 and net[1] is not None and net[1] > 1.0:
             continue
-        rows.append(f"* {TITLES.get(c['scene'], c['scene'])}, light samples {light_samples(settings)}, `{c['method']}`: {verdict(c)}; "
+        rows.append(f"* {TITLES.get(c['scene'], c['scene'])}, light samples {light_samples(settings)}, `{c['method']}`: {interval(c['net'])} {verdict(c['net'])}; "
                     f"{interval(c['samples'])} times fewer samples, {cost(c)} as long.")
     if len(rows) == 1:
         rows.append("Every method gains on every scene measured here.")
@@ -197,7 +197,8 @@ def scene_rows(bench, scene):
         row = [TITLES.get(scene, scene) if method == bench.base else "", f"`{method}`", f"{cell['seconds'][0] / per_sample:.3g}",
                interval(cell["relmse"]), interval(cell["relmse_trimmed"]), interval(cell["flip"])]
         gain = [c for c in bench.comparisons() if c["scene"] == scene and c["method"] == method]
-        row += [interval(gain[0]["samples"]), f"{1.0 / gain[0]['cost'][0]:.2g}", verdict(gain[0]),
+        row += [interval(gain[0]["samples"]), f"{1.0 / gain[0]['cost'][0]:.2g}",
+                f"{interval(gain[0]['net'])} {verdict(gain[0]['net'])}",
                 interval(gain[0]["net_trimmed"])] if gain else ["", "", "", ""]
         rows.append("| " + " | ".join(row) + " |")
     return rows

@@ -141,7 +141,7 @@ TEST_CASE("checkpoints that do not fit are refused") {
                   "scene hash: expected");
     check_refused(3, resume("cut"), "cut: damaged checkpoint: expected");
     check_refused(3, resume("damaged"), "damaged: damaged checkpoint: expected the checksum");
-    check_refused(3, resume("version"), "version: checkpoint of another version: expected 12, got 99");
+    check_refused(3, resume("version"), "version: checkpoint of another version: expected 13, got 99");
     check_refused(3, resume("text"), "text: not a checkpoint");
     check_refused(3, resume("none"), "no such file");
     check_refused(2, render_refined(folder / "x.pfm", 2, {"--checkpoint-every", "3"}), "expected --checkpoint FILE");

@@ -216,6 +216,7 @@ void RenderLoop::take_turn() {
     if (passes() > 0 && !frames_.shows(passes())) publish();
     turns_->set_side(side);
     frames_.change_film();
+    if (!wants_pass()) frames_.ask();  // turns end with this side, whose last pass came before them
 }
 
 void RenderLoop::render() {

@@ -68,7 +68,7 @@ TEST_CASE("Other files, other versions and missing files are no checkpoints") {
     std::string bytes = written(folder, small_checkpoint());
     bytes[kVersionOffset] = 99;
     CHECK_THAT(input_error([&] { read_checkpoint(folder.write("f", sealed(bytes))); }),
-               contains("f: checkpoint of another version: expected 12, got 99"));
+               contains("f: checkpoint of another version: expected 13, got 99"));
 }
 
 TEST_CASE("A checkpoint whose forgotten volumes do not exist is refused") {
