@@ -24,6 +24,7 @@ Arguments render_refined(const std::string& output, std::uint32_t spp, const Arg
 json counts_of(const std::string& stats_file) {
     json stats = json::parse(read_all(stats_file));
     for (const char* member : {"seconds", "threads"}) stats.erase(member);
+    if (stats["guiding"].is_object()) stats["guiding"].erase("guided_share");
     return stats;
 }
 
