@@ -18,8 +18,8 @@ PLOTS = DOCS / "images" / "results"
 RAW = DOCS / "results"
 GAINS = DOCS / "images" / "gains.svg"
 # The benches of the page, in its order. The first gives the plots.
-TITLES = {"light-samples-on": "With light samples", "light-samples-on-small": "With light samples, smaller pictures",
-          "light-samples-on-larger": "With light samples, larger pictures", "light-samples-off": "Without light samples"}
+TITLES = {"light-samples-on": "With light samples", "light-samples-on-larger": "With light samples, larger pictures",
+          "light-samples-off": "Without light samples"}
 # An interval that reaches further from its value is one of few bright paths: the trimmed error decides instead.
 WIDEST = (0.8, 1.25)
 COLORS = {"faster": "#1b7f4d", "undecided": "#777777", "slower": "#b4370f"}
@@ -89,8 +89,8 @@ def decisive(comparison):
     return net if is_narrow else comparison["net_trimmed"]
 
 
-def verdict(comparison):
-    factor = decisive(comparison)
+def verdict(factor):
+    """Of a factor of time with its interval."""
     return "unknown" if None in factor else word_of(*factor[1:])
 
 
@@ -111,7 +111,7 @@ def gains(results):
 
 
 def factors(comparison):
-    return f"{interval(comparison['net'])} | {interval(comparison['net_trimmed'])} | {verdict(comparison)}"
+    return f"{interval(comparison['net'])} | {interval(comparison['net_trimmed'])} | {verdict(decisive(comparison))}"
 
 
 def mean_factor(results, method):
@@ -121,7 +121,7 @@ def mean_factor(results, method):
 
 def count_verdicts(results, method):
     """A line that counts faster, undecided and slower scenes of a method, and names those that are not faster."""
-    ends = {word: sorted({f"`{c['scene']}`" for c in results["comparisons"] if c["method"] == method and verdict(c) == word})
+    ends = {word: sorted({f"`{c['scene']}`" for c in results["comparisons"] if c["method"] == method and verdict(decisive(c)) == word})
             for word in ("faster", "undecided", "slower")}
     named = [f"{word} on {len(ends[word])}" + (f" ({', '.join(ends[word])})" if word != "faster" and ends[word] else "") for word in ends]
     return f"* `{method}`: {', '.join(named)}."
